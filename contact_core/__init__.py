@@ -1,13 +1,15 @@
 """A lubricated contact of two rough, moving bodies: film, friction, tribofilm and wear.
 
 A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperature) go in; `Outputs` and a new, frozen
-`ContactState` come out. Three levels answer behind one door, `advance`. Where to find what:
+`ContactState` come out. Four levels answer behind one door, `advance`. Where to find what:
 
     advance          checks once, binds scene and operating point in a `Case`, hands over to the level
     deterministic/   the level that solves the contact node by node
     regression/      the level of film formulas and fitted curves, microseconds a step
     correction       what solved contacts say about the errors of the regression level elsewhere
+    amended          a contact of the regression level with friction, film and W_c from elsewhere
     auto             the level of the regression level, corrected by blocks where it is not sure enough
+    mapped/          the level of the regression level, corrected by a map of solved contacts
     surfaces/        roughness, body-fixed patches, track means, profiles
     state/           `ContactState`, `Outputs`, `RangeFlag`, trends, storage
     scene/           `Scene`, `OperatingPoint`, `Case`, checks, TOML, units
@@ -24,9 +26,9 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     data/            named oils, solids and tribofilms, and the shipped scenes
 
 Imports run one way: errors, quantities, reference <- kernels <- laws <- shapes <- film <- scene <- state, calls <-
-surfaces <- deterministic, regression, correction <- auto <- advance. The first two levels do not import each other.
-Everything inside is SI; heights are metres above a body's mean plane, positive toward the other body; arrays are
-[ny, nx], x along entrainment.
+surfaces <- deterministic, regression, correction <- amended <- auto, mapped <- advance. The first two levels do not
+import each other. Everything inside is SI; heights are metres above a body's mean plane, positive toward the other
+body; arrays are [ny, nx], x along entrainment.
 """
 
 from .advance import advance, uncertainty, warm_up

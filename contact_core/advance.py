@@ -7,9 +7,9 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import Protocol
 
-from . import auto, deterministic, regression
+from . import auto, deterministic, mapped, regression
 from .errors import ContactError, OperatingPointError
-from .film import Auto, Deterministic, Regression
+from .film import Auto, Deterministic, Mapped, Regression
 from .scene import Case, OperatingPoint, Scene
 from .state import ContactState, Error, Outputs, initial_state
 
@@ -31,7 +31,12 @@ class Level(Protocol):
         """Return the errors of the outputs of a state."""
 
 
-LEVELS: dict[str, Level] = {Deterministic.name: deterministic, Regression.name: regression, Auto.name: auto}
+LEVELS: dict[str, Level] = {
+    Deterministic.name: deterministic,
+    Regression.name: regression,
+    Auto.name: auto,
+    Mapped.name: mapped,
+}
 
 
 def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:

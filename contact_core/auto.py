@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import deterministic, regression
+from .amended import amended, kept, wear_error
 from .correction import (
     ABSOLUTE,
     CORRECTED,
@@ -75,7 +76,6 @@ class _Corrector:
         self.told: dict[str, Any] = {}
         self._conditioner = _conditioner(solved) if solved is not None else None
         control = case.scene.control
-        self._smooth = case.scene.surface_1.smooth and case.scene.surface_2.smooth
         self._accuracy = ACCURACY if control.accuracy is None else control.accuracy
         self._flagged = _ASKED if control.accuracy is None else tuple(CORRECTED.values())
 
@@ -87,7 +87,7 @@ class _Corrector:
         """Return a contact of the regression level, corrected; the same one if nothing is known."""
         errors, force = half_widths(case, contact), contact.solid + contact.fluid
         self.raw = {}
-        if force == 0.0 or not case.loaded or contact.sigma == 0.0 or self._smooth:
+        if kept(case, contact):
             return contact
         self.raw = errors | {
             "friction_coefficient": abs(force) / case.op.load,
@@ -106,22 +106,8 @@ class _Corrector:
         return self._amended(contact, max(case.op.bodies))
 
     def _amended(self, contact: MeanContact, bulk: float) -> MeanContact:
-        raw, told = self.raw, self.told
-        friction = told["friction_coefficient"] / raw["friction_coefficient"]
-        share = told[ABSOLUTE] / raw[ABSOLUTE] if raw[ABSOLUTE] > 0.0 else 1.0
-        by_speed_1, by_speed_2, by_load, by_temperature = (friction * value for value in contact.derivatives)
-        return contact._replace(
-            gap=told["h_c"],
-            load_ratio=told[ABSOLUTE],
-            area_ratio=share * contact.area_ratio,
-            solid=friction * contact.solid,
-            fluid=friction * contact.fluid,
-            derivatives=(by_speed_1, by_speed_2, by_load, by_temperature),
-            power=friction * contact.power,
-            into_1=friction * contact.into_1,
-            spin_torque=friction * contact.spin_torque,
-            hottest=bulk + friction * (contact.hottest - bulk),
-        )
+        friction = self.told["friction_coefficient"] / self.raw["friction_coefficient"]
+        return amended(contact, friction, self.told["h_c"], self.told[ABSOLUTE], bulk)
 
     @property
     def asks(self) -> bool:
@@ -138,10 +124,10 @@ class _Corrector:
             return outputs
         errors = {name: self.told[name] for name in CORRECTED.values()}
         if self._conditioner is not None:
-            wear, load = CORRECTED[ABSOLUTE], self.told[ABSOLUTE]
-            narrower = errors[wear] / self.raw[wear] if self.raw[wear] > 0.0 else 1.0
-            share = self.raw[ABSOLUTE] / load if load > 0.0 else 1.0
-            errors["error_wear"] = outputs.error_wear * min(narrower * share, 1.0)
+            known = self.raw[CORRECTED[ABSOLUTE]], self.raw[ABSOLUTE]
+            errors["error_wear"] = wear_error(
+                outputs.error_wear, *known, errors[CORRECTED[ABSOLUTE]], self.told[ABSOLUTE]
+            )
         flag = flag_of_errors({name: errors[name] for name in self._flagged}, self._accuracy)
         return changed(outputs, **errors, range_flags=outputs.range_flags & ~int(RangeFlag.UNSURE) | int(flag))
 

@@ -15,8 +15,8 @@ Kind = Literal["Real", "Integer", "Boolean"]
 # surfaces have it, and its change per block gives the error of time steps; rate: so has its rate of change
 Trend = Literal["", "level", "slope", "rate"]
 
-LEVELS = ("regression", "deterministic", "auto")  # fidelity levels by number: 1, 2, 3
-UNSOLVED = frozenset(LEVELS[:1])  # levels that solve no contact: an accuracy chooses nothing there
+LEVELS = ("regression", "deterministic", "auto", "map")  # fidelity levels by number: 1, 2, 3, 4
+UNSOLVED = frozenset({"regression", "map"})  # levels that solve no contact: an accuracy chooses nothing there
 
 # What is measured in a unit, in the words of the Modelica standard library, where nothing else is said
 _MEASURED_IN = {
@@ -156,7 +156,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("heat_flow_2", "Q_2", "W", "heat that the contact puts into the body, body 2", nominal=1.0, trend="level"),
     Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um", trend="level"),
     Quantity("valid", "", "", "false: the last input could not be used; state and outputs stand as they were", kind="Boolean"),
-    Quantity("fidelity_used", "", "", "fidelity level that gave the outputs: 1 regression, 2 deterministic, 3 auto, 0 none yet", kind="Integer", minimum=0, maximum=3),
+    Quantity("fidelity_used", "", "", "fidelity level that gave the outputs: 1 regression, 2 deterministic, 3 auto, 4 map, 0 none yet", kind="Integer", minimum=0, maximum=4),
     Quantity("range_flags", "", "", "sum of the RangeFlag values raised (see RangeFlag)", kind="Integer", minimum=0),
     Quantity("iterations", "", "", "film iterations in the last step", kind="Integer", minimum=0, levels=_FIELDS),
     Quantity("suggested_step", "dt", "s", "time until the stored contact is due to be solved again", nominal=60.0, minimum=0.0),

@@ -80,7 +80,7 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
         *(of_number(name, value, field) for name, (value, field) in tunables(scene).items()),
         Variable(
             FIDELITY,
-            "fidelity level from the next step on: 1 regression, 2 deterministic, 3 auto",
+            "fidelity level from the next step on: 1 regression, 2 deterministic, 3 auto, 4 map",
             "Integer",  # as an Enumeration, libcosim and ecos would leave it out, and silently not set it
             "parameter",
             fidelity_of(scene.film.name),

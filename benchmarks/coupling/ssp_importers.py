@@ -25,6 +25,7 @@ from benchmarks.folders import MEASURED
 from benchmarks.hosts import omsimulator, ssp_runner
 from benchmarks.hosts.ssp_runner import IMPORTERS, UNUSABLE
 from benchmarks.pages import save
+from fmu_src.flavours import Flavour
 from system_models.machines import reading
 from system_models.machines.export import with_timetable
 from system_models.master import System, export_ssp, simulate
@@ -63,12 +64,13 @@ RIG = (
 
 
 class Case(NamedTuple):
-    """A machine, how many steps of which size [s], and the values that are compared at their end."""
+    """A machine, how many steps of which size [s], the values compared at their end, and the flavour of its contacts."""
 
     machine: str
     step: float
     steps: int
     names: tuple[str, ...]
+    flavour: Flavour = "isolated"
 
     @property
     def end(self) -> float:
@@ -85,6 +87,7 @@ CASES = (
     Case("gear_fzg_a", 0.125, 80, GEARS),
     Case("gear_fzg_a", 0.0625, 160, GEARS),
     Case("mtm_rig", 0.125, 150, RIG),
+    Case("mtm_rig", 0.125, 150, RIG, "native"),
 )
 
 
@@ -137,7 +140,7 @@ def cell(answer: Answer, i: int, value: float, error: float) -> str:
 def section(case: Case, folder: Path) -> tuple[list[str], dict[str, float]]:
     """The lines of a machine, and the largest deviation of each importer over the coupling's error."""
     assembly = with_timetable(reading.assemble(reading.read(case.machine)))
-    system = assembly.system(folder, "isolated")
+    system = assembly.system(folder, case.flavour)
     file = export_ssp(system, folder / f"{case.machine}.ssp", case.end, case.step)
     values, errors = ours(system, dict(assembly.settings), case)
     answers = {importer: answered(importer, file, case) for importer in (*IMPORTERS, OMSIMULATOR)}
@@ -154,7 +157,7 @@ def section(case: Case, folder: Path) -> tuple[list[str], dict[str, float]]:
     }
     took = [f"{answer.seconds:.0f} s" if answer.values else "-" for answer in answers.values()]
     lines = [
-        f"## {case.machine}, steps of {case.step:g} s",
+        f"## {case.machine}, {case.flavour} contacts, steps of {case.step:g} s",
         "",
         f"{len(assembly.parts)} components and {len(assembly.contacts)} contacts, {len(system.connections)} connections; "
         f"{case.end:g} s.",
@@ -201,7 +204,7 @@ def page(done: Sequence[tuple[list[str], dict[str, float]]]) -> str:
         "Written by `python -m benchmarks.coupling.ssp_importers`, which describes the comparison: the file that `tribofmu run MACHINE",
         "--ssp FILE` writes, in",
         f"{versions()}.",
-        "`took`: including the start of all FMUs, on a shared machine.",
+        "`took`: including the start of all FMUs, on a shared machine. Components are models in Python in any case; native contacts are C.",
         "",
         "`master` is the master with the importers' algorithm, fixed steps and Jacobi of order 0. Beside it is the error of the coupling: the range of its results with these steps, with double steps, and with the machine's own settings, at least a millionth of the value. The deviation of an importer is given in brackets, in units of this error:",
         f"{largest(done, fed):.2g} at most, for fmpy {largest(done, lambda name: not fed(name)):.2g}.",

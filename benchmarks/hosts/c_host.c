@@ -1,13 +1,14 @@
-/* A host for FMI 2.0 co-simulation FMUs that knows nothing of Python.
+/* A host for co-simulation FMUs of FMI 2.0 and 3.0 that knows nothing of Python.
  *
  * It reads one command per line from stdin, fields separated by tabs, and answers each with a line
  *     answer <status>                                    fmi2Status, or -1: no library, function or instance
  * after a line for every entry that the FMU logs, and one for what the command asks for:
  *     log <instance> <status> <category> <message>
  *     value <value> ...                                  reals are hexadecimal
- * F, K and S number FMUs, instances and states; R and Q are value references.
+ * F, K and S number FMUs, instances and states; R and Q are value references. `fmu` with 3 at its end loads an FMU of FMI
+ * 3.0, whose resources are a path; `forks` is for FMI 2.0.
  *
- *     fmu F LIBRARY URI GUID      instantiate K F LOGGING     enter|exit|terminate|reset|free K
+ *     fmu F LIBRARY URI GUID [3]  instantiate K F LOGGING     enter|exit|terminate|reset|free K
  *     unload F                    the library, which may stay if something else holds it
  *     reload F                    the library and its functions anew, after unloading it
  *     setup K START [STOP]
@@ -28,6 +29,7 @@
  *     environment NAME VALUE      a variable of its environment from now on
  */
 #include "c_host.h"
+#include "c_host_fmi3.h"
 
 /* life of an FMU and of an instance */
 
@@ -38,6 +40,8 @@ static int open_library(Fmu *fmu)
         printf("log\t-1\t3\tdlopen\t%s\n", dlerror());
         return NONE;
     }
+    if (fmu->version == 3)
+        return open3(fmu);
 #define RESOLVE(name) \
     if (!(*(void **)&fmu->name = dlsym(fmu->library, "fmi2" #name))) { \
         printf("log\t-1\t3\tdlsym\tfmi2" #name "\n"); \
@@ -53,6 +57,7 @@ static int load(char **field, int count)
     fmu->file = strdup(field[2]);
     fmu->uri = strdup(field[3]);
     fmu->guid = strdup(field[4]);
+    fmu->version = count > 5 ? atoi(field[5]) : 2;
     return open_library(fmu);
 }
 

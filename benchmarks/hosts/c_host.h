@@ -29,6 +29,8 @@ typedef struct {
     FUNCTIONS(MEMBER)
     void *library;
     char *file, *uri, *guid;
+    int version;
+    const void *version3; /* the functions of FMI 3.0 behind those above */
 } Fmu;
 
 typedef struct {

@@ -20,7 +20,7 @@ _numbers = itertools.count()
 OK, WARNING, DISCARD, ERROR, FATAL = range(5)  # fmi2Status
 NONE = -1  # no library, function or instance
 SOURCE = Path(__file__).with_name("c_host.c")
-LETTER = {"Real": "r", "Integer": "i", "Boolean": "b", "String": "s"}
+LETTER = {"Real": "r", "Integer": "i", "Boolean": "b", "String": "s", "Float64": "r", "Int32": "i"}
 
 
 def compiled(folder: Path) -> Path:
@@ -150,10 +150,12 @@ class NativeHost:
         """The FMU unpacked in `folder`."""
         description = fmpy.read_model_description(str(folder), validate=False)
         identifier = description.coSimulation.modelIdentifier
-        library = folder / "binaries" / "linux64" / f"{identifier}.so"
+        fmi3 = description.fmiVersion.startswith("3")
+        library = folder / "binaries" / ("x86_64-linux" if fmi3 else "linux64") / f"{identifier}.so"
         number, self._fmus = self._fmus, self._fmus + 1
-        resources = uri or (folder / "resources").as_uri()
-        loaded = self.ask("fmu", number, library, resources, guid or description.guid)
+        resources = folder / "resources"
+        place = f"{resources.absolute()}/" if fmi3 else resources.as_uri()
+        loaded = self.ask("fmu", number, library, uri or place, guid or description.guid, *[3] * fmi3)
         return Fmu(self, number, loaded, {v.name: v for v in description.modelVariables})
 
 
@@ -211,7 +213,7 @@ class Instance:
         first = self.fmu.variables[names[0]].type
         references = [self.fmu.variables[name].valueReference for name in names]
         answer = self.ask(f"get{LETTER[first]}", *references)
-        if first == "Real":
+        if LETTER[first] == "r":
             return answer.reals
         return answer.values if first == "String" else [int(value) for value in answer.values]
 

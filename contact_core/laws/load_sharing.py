@@ -90,6 +90,26 @@ class Widths(NamedTuple):
         return float(widest * (1.0 + self.rough * exp(-2.0 * clearance)))
 
 
+class Parting(NamedTuple):
+    """What parts the solids, at any slip."""
+
+    film: Numbers  # of the oil between asperities, before it is eased
+    yielding: Numbers  # factor on it
+    apart: Numbers  # Z^2
+
+
+class Films(NamedTuple):
+    """h_c / sigma of a contact that is dry, and of one that is not: `larger` times `both`."""
+
+    dry: Numbers
+    larger: Numbers
+    both: Numbers
+
+    def ratio(self, load_ratio: Numbers) -> Numbers:
+        """Return h_c / sigma where the solids carry `load_ratio` of the load."""
+        return load_ratio * self.dry + (1.0 - load_ratio) * self.larger * self.both
+
+
 @dataclass(frozen=True)
 class FittedSharing:
     """W_c, A_c, h_c and the exposure of both bodies as functions of a few numbers, for circles and ellipses.
@@ -226,35 +246,54 @@ class FittedSharing:
         slip: Numbers,
         pressed: Numbers,
     ) -> Numbers:
-        """Return contact_load_ratio at Z = `clearance`, for a film of smooth bodies `layers` layers thick.
+        """Return contact_load_ratio at Z = `clearance`, for a film of smooth bodies `layers` layers thick."""
+        return self.load_ratio_at(slip, self.parting(clearance, layers, flattening, below, pressed))
+
+    def parting(
+        self, clearance: Numbers, layers: Numbers, flattening: Numbers, below: Numbers, pressed: Numbers
+    ) -> "Parting":
+        """Return what parts the solids, at any slip; parameters as of `load_ratio`.
 
         Oil between the asperities takes the load from what is below the grid; as Z grows, the asperities part.
         """
-        flattest, lowest, fastest = (_FURTHER * self.FITTED[name][1] for name in ("flattening", "below", "slip"))
+        flattest, lowest = (_FURTHER * self.FITTED[name][1] for name in ("flattening", "below"))
         flat = minimum(flattening, flattest) / _FLATTENING
         fine = minimum(below, lowest) / _FLATTENING
-        ease = (1.0 + minimum(slip, fastest)) ** self.load_slip * (1.0 + _YIELDING * pressed) ** -self.load_yield
+        yielding = (1.0 + _YIELDING * pressed) ** -self.load_yield
         film = minimum(layers, _THICKEST) ** self.load_exponent * (flat**self.load_flattening * fine**self.load_below)
-        parted = minimum(clearance, _THICKEST) ** 2
-        return exp(-self.load_factor * minimum(film * ease, _MOST) - self.load_parted * minimum(parted, _MOST))
+        return Parting(film, yielding, minimum(clearance, _THICKEST) ** 2)
+
+    def load_ratio_at(self, slip: Numbers, parting: "Parting") -> Numbers:
+        """Return contact_load_ratio at a slip."""
+        fastest = _FURTHER * self.FITTED["slip"][1]
+        ease = (1.0 + minimum(slip, fastest)) ** self.load_slip * parting.yielding
+        film, apart = minimum(parting.film * ease, _MOST), minimum(parting.apart, _MOST)
+        return exp(-self.load_factor * film - self.load_parted * apart)
 
     def area_ratio(self, load_ratio: Numbers, flattening: Numbers, below: Numbers) -> Numbers:
         """Return contact_area_ratio where the solids carry `load_ratio` of the load."""
-        flat = flattening_together(flattening, below, _ALL_WAVES)
-        return -expm1(-self.area_factor * flat) * load_ratio**self.area_exponent
+        return self.dry_area(flattening, below) * load_ratio**self.area_exponent
+
+    def dry_area(self, flattening: Numbers, below: Numbers) -> Numbers:
+        """Return contact_area_ratio where the solids carry all of the load."""
+        return -expm1(-self.area_factor * flattening_together(flattening, below, _ALL_WAVES))
 
     def film_ratio(self, dense: Numbers, load_ratio: Numbers, flattening: Numbers, layer: Numbers) -> Numbers:
         """Return h_c / sigma at Z / rho = `dense` where the solids carry `load_ratio` of the load.
 
         `layer` is Z / f, the height to which roughness below the grid reaches over sigma.
         """
-        share, flat = load_ratio, (flattening / _FLATTENING) ** -0.75
+        return self.films(dense, flattening, layer).ratio(load_ratio)
+
+    def films(self, dense: Numbers, flattening: Numbers, layer: Numbers) -> "Films":
+        """Return h_c / sigma of solids that carry everything, and of oil that does; parameters as of `film_ratio`."""
+        flat = (flattening / _FLATTENING) ** -0.75
         dry = self.film_dry * log1p(self.film_parted * (flat * flat)) / self.film_parted + self.film_layer * layer
         mixed = maximum(self.film_mixed * flat, dry)
         film = self.film_factor * dense
         larger = maximum(film, mixed)  # in front, because powers of large numbers overflow
         ratio = minimum(film, mixed) / larger
-        return share * dry + (1.0 - share) * larger * (1.0 + ratio**self.film_exponent) ** (1.0 / self.film_exponent)
+        return Films(dry, larger, (1.0 + ratio**self.film_exponent) ** (1.0 / self.film_exponent))
 
     def oil_pressure(self, clearance: Numbers, flattening: Numbers, thick_x: Numbers, thick_y: Numbers) -> Numbers:
         """Return the pressure at which oil carries load, over Hertz's.

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..laws.load_sharing import sliding_ratio
 from ..scene import Case
-from .load_sharing import UNFITTED, Fit, Shares, Surfaces, shared, surfaces_of
+from .load_sharing import UNFITTED, Fit, Parted, Shares, Surfaces, parted, shared, surfaces_of
 from .oil import Law, MeanHeat, oil_shear
 from .smooth_film import KELVIN, LIGHTEST, SLOWEST, STEP, SmoothFilm, smooth_film
 from .surfaces import Tribofilms, composite_roughness, mean_cover, regression_film
@@ -49,6 +49,16 @@ class MeanContact(NamedTuple):
     rolling: float  # resistance of the oil [N]
     oil_slope: float  # d ln(its friction) / d ln(sliding speed)
     hottest: float  # largest temperature of the surfaces [K]
+    stated: "Stated | None" = None  # errors where another level knows them better than the curves
+
+
+class Stated(NamedTuple):
+    """Half widths (95 %) of a corrected contact."""
+
+    friction: float  # relative
+    film: float  # relative, of the gap
+    load: float  # absolute, of load_ratio
+    trust: float  # 1 where the correction holds, 0 where there is none
 
 
 class _Point(NamedTuple):
@@ -143,21 +153,22 @@ def _points(case: Case, surfaces: Surfaces, film: float, further: float) -> list
     hertz, slide, speed = case.unit_hertz, case.op.sliding_speed, case.op.entrainment_speed
     (root, wide), (longer, wider) = case.growth, hertz.growth(1.0 + STEP)
     grown, more = (root, wide), (root * longer, wide * wider)
-    now = _point(case, surfaces, film, grown, slide, speed)
+    here = parted(case, surfaces, film, grown)
+    now = _point(case, surfaces, here, grown, slide, speed)
     return [
         now,
-        _point(case, surfaces, film, grown, slide + further, speed),
-        _point(case, surfaces, film * (1.0 + STEP), grown, slide, speed),
-        _point(case, surfaces, film, more, slide, speed),
+        _point(case, surfaces, here, grown, slide + further, speed),
+        _point(case, surfaces, parted(case, surfaces, film * (1.0 + STEP), grown), grown, slide, speed),
+        _point(case, surfaces, parted(case, surfaces, film, more), more, slide, speed),
         now,
-        _point(case, surfaces, film, grown, slide, speed + _faster(case)),
+        _point(case, surfaces, here, grown, slide, speed + _faster(case)),
     ]
 
 
 def _point(
-    case: Case, surfaces: Surfaces, film: float, grown: tuple[float, float], slide: float, speed: float
+    case: Case, surfaces: Surfaces, parted: Parted, grown: tuple[float, float], slide: float, speed: float
 ) -> _Point:
-    """Return the solids for a film of smooth bodies [m], at a sliding and an entrainment speed [m/s].
+    """Return the solids of bodies that are parted, at a sliding and an entrainment speed [m/s].
 
     The load is that at which the contact at 1 N has `grown` by factors.
     """
@@ -169,7 +180,7 @@ def _point(
         rubbing = math.hypot(slide, hertz.lever_share * edge)
         along = slide / max(rubbing, SLOWEST)
         turned = slide / max(math.hypot(slide, hertz.turn_share * edge), SLOWEST)
-    shares = shared(case, surfaces, film, grown, sliding_ratio(rubbing, speed))
+    shares = shared(case, parted, sliding_ratio(rubbing, speed))
     largest, area = hertz.pressure_max * root, hertz.area * root * wide
     carried = hertz.mean_share * shares.load * largest  # mean over the Hertz area
     touching = max(shares.area, carried / surfaces.hardness)  # the hardness allows no smaller contact

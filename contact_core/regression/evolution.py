@@ -41,7 +41,9 @@ def advance(
     """
     scene = case.scene
     _check_pressure(case)
-    if not scene.heat.bulk.stores_heat or dt == 0.0:
+    if not scene.heat.bulk.stores_heat:
+        return _stepped(case, state, dt, contact_of)
+    if dt == 0.0:
         return _stepped(case.warmed(state.temperatures), state, dt, contact_of)
     before, left = [state.outputs.wear_volume_1, state.outputs.wear_volume_2], dt
     while left > 0.0:

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from ..laws.load_sharing import flattening_of, layer_height, rms_slope
+from ..laws.load_sharing import Films, Parting, flattening_of, layer_height, rms_slope
 from ..scene import Case
 from .oil import Law
 from .surfaces import Tribofilms, added_friction, hardness_of, mean_cover, peaks_of, regression_film, under_film
@@ -70,15 +70,25 @@ def surfaces_of(case: Case, tribofilms: Tribofilms) -> Surfaces:
     )
 
 
-def shared(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, float], slip: float) -> Shares:
-    """Return the shares of rough bodies for a film of smooth ones [m].
+class Parted(NamedTuple):
+    """Rough bodies parted by a film: what does not depend on sliding."""
 
-    `grown` are the factors of Hertz's contact at 1 N along x and y that give it at the load, `slip` is sliding over
-    entrainment speed.
+    fit: Fit  # its slip is that of rolling
+    parting: Parting
+    films: Films
+    rough: float  # height over which the oil flows [m]
+    dry_area: float
+    raised: float  # pressure of the oil over Hertz's
+
+
+def parted(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, float]) -> Parted:
+    """Return how a film of smooth bodies [m] parts rough ones.
+
+    `grown` are the factors of Hertz's contact at 1 N along x and y that give it at the load.
     """
     root, wide = grown
     scene, hertz = case.scene, case.unit_hertz
-    floor, sharing = scene.film.floor, regression_film(scene).sharing
+    sharing = regression_film(scene).sharing
     sigma = max(surfaces.sigma, surfaces.layer)  # bodies smooth on the grid touch by what is below it
     pressure, half = root * hertz.pressure_max, root * hertz.a
     fit = Fit(
@@ -86,18 +96,29 @@ def shared(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, floa
         film / surfaces.layer,
         surfaces.flattening * pressure,
         surfaces.below * pressure,
-        slip,
+        0.0,
         pressure / surfaces.hardness,
     )
-    clearance, flattening, below = fit.clearance, fit.flattening, fit.below
-    if not sharing.covers(*fit):  # powers of it have no meaning far from the fit
-        flattening = sharing.nearest(flattening)
+    clearance, below = fit.clearance, fit.below
+    flattening = sharing.nearest(fit.flattening)  # powers of it have no meaning far from the fit
     density: Law = scene.lubricant.density
-    share = sharing.load_ratio(clearance, fit.layers, flattening, below, slip, fit.pressed)
     rough = max(surfaces.solid, surfaces.layer)  # tribofilms fill what they part
     dense = film / rough / float(density(hertz.mean_share * pressure))
-    gap = max(rough * sharing.film_ratio(dense, share, flattening, surfaces.layer / rough), floor)
     raised = sharing.oil_pressure(clearance, flattening, *case.shape.depths(film, half, wide * hertz.b))
-    area = sharing.area_ratio(share, flattening, below)
-    most = scene.plasticity.hardness / pressure  # no pressure is above the hardness
-    return Shares(fit, gap, share, area, min(raised, most))
+    return Parted(
+        fit,
+        sharing.parting(clearance, fit.layers, flattening, below, fit.pressed),
+        sharing.films(dense, flattening, surfaces.layer / rough),
+        rough,
+        sharing.dry_area(flattening, below),
+        min(raised, scene.plasticity.hardness / pressure),  # no pressure is above the hardness
+    )
+
+
+def shared(case: Case, parted: Parted, slip: float) -> Shares:
+    """Return the shares of rough bodies parted by a film, `slip` being sliding over entrainment speed."""
+    sharing = regression_film(case.scene).sharing
+    share = sharing.load_ratio_at(slip, parted.parting)
+    gap = max(parted.rough * parted.films.ratio(share), case.scene.film.floor)
+    area = parted.dry_area * share**sharing.area_exponent
+    return Shares(parted.fit._replace(slip=slip), gap, share, area, parted.raised)

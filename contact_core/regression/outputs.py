@@ -138,6 +138,8 @@ def _flags(case: Case, contact: MeanContact) -> int:
 
 def _fitted(case: Case, contact: MeanContact) -> bool:
     """Return True within the fit of the curves; those of exposure and coverage are of bodies that both move."""
+    if contact.stated is not None and contact.stated.trust < 1.0:
+        return False
     rubs_at_rest = case.op.slides and 0.0 in case.speeds
     return not rubs_at_rest and regression_film(case.scene).sharing.covers(*contact.fit)
 
@@ -163,12 +165,16 @@ def half_widths(case: Case, contact: MeanContact) -> dict[str, Any]:
     solid = abs(contact.solid) / share if share > 0.0 else case.scene.boundary_friction.bare * case.op.load
     fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0
     friction = math.hypot(abs(solid - fluid) * load, abs(contact.fluid) * oil)
+    film = wider * widths.of_film(clearance)
+    relative = min(friction / force, max(solid / force, 1.0)) if force > 0.0 else 0.0
+    if contact.stated is not None:
+        relative, film, load = contact.stated[:3]
     wear = min(load / share, _UNKNOWN) if share > 0.0 else _UNKNOWN * bare
     exposed = min(math.hypot(beyond * _exposure_error(sharing), wear), _UNKNOWN)
     grown = _LOCAL if case.scene.tribofilm.abrades else exposed
     return {
-        "error_friction": min(friction / force, max(solid / force, 1.0)) if force > 0.0 else 0.0,
-        "error_film": min(wider * widths.of_film(clearance), 1.0),
+        "error_friction": relative,
+        "error_film": min(film, 1.0),
         "error_load_ratio": min(load, 1.0),
         "error_tribofilm_1": grown,
         "error_tribofilm_2": grown,

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import SceneError
 from ..film import FILMS
+from ..film.mapped import with_map_found
 from . import checks
 from .accuracy import planned, provisional
 from .fields import SceneFields
@@ -30,9 +31,9 @@ class Scene(SceneFields):
     def from_toml(source: str | Path, overrides: Mapping[str, str] | None = None) -> "Scene":
         """Read a shipped scene by name or a TOML file by path; `overrides` maps dotted keys to new values.
 
-        Files of heights and of sets are looked for beside the scene's file, then in the working folder, those of sets
-        in `overrides` the other way round. Raises SceneError with every sentence that says what is wrong and what would
-        be right.
+        Files of heights, sets and maps are looked for beside the scene's file, then in the working folder, those of
+        sets in `overrides` the other way round. Raises SceneError with every sentence that says what is wrong and what
+        would be right.
         """
         folders = (folder_of(source), Path())
         table = located(read_table(source), *folders)
@@ -46,14 +47,16 @@ class Scene(SceneFields):
     def from_dict(table: Mapping[str, Any], *folders: Path) -> "Scene":
         """Build and check a scene from nested tables as TOML gives them.
 
-        Files of heights and of sets are looked for in the folders, in their order; without any in the working folder.
+        Files of heights, sets and maps are looked for in the folders, in their order; without any in the working
+        folder.
         """
         filled, open_fields = provisional(completed(located(table, *(folders or (Path(),)))))
         scene: Scene = build(Scene, filled, "")
         first, second = (
             getattr(scene, name).with_file(name, folders or (Path(),)) for name in ("surface_1", "surface_2")
         )
-        return checked(planned(replace(scene, surface_1=first, surface_2=second), open_fields))
+        film = with_map_found(scene.film, folders or (Path(),))
+        return checked(planned(replace(scene, surface_1=first, surface_2=second, film=film), open_fields))
 
     def with_heights(
         self, body: int, heights: ArrayLike, spacing: float | str, unit: str = "m", beyond: str = "mirrored"

@@ -46,14 +46,13 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
                               fmi2Boolean visible, fmi2Boolean loggingOn) {
     (void)fmuResourceLocation, (void)visible;
     if (!functions) return NULL;
-    const int own = functions->allocateMemory && functions->freeMemory;
     const Host host = {"fmi2",
                        "SetupExperiment",
                        deliver,
                        (void (*)(void))functions->logger,
                        functions->componentEnvironment,
-                       own ? functions->allocateMemory : calloc,
-                       own ? functions->freeMemory : free};
+                       calloc, /* not the host's, as the description promises: fmuloader 0.1 cuts its pointers short */
+                       free};
     if (fmuType == fmi2CoSimulation) return instance_new(&host, instanceName, fmuGUID, loggingOn);
     if (host.logger)
         deliver(&host, instanceName, ERROR, MODEL_CATEGORIES[OF_ERRORS],

@@ -13,6 +13,9 @@ from typing import Any
 
 from contact_core import initial_state
 from contact_core.errors import OperatingPointError
+from contact_core.film import Mapped
+from contact_core.mapped.map import map_of
+from contact_core.mapped.query import corrected
 from contact_core.quantities import OF_CALLER, OF_CORE
 from contact_core.regression import evolution
 from contact_core.regression.contact import MeanContact, evaluate
@@ -57,18 +60,30 @@ _COLD = 0.0  # K: no law covers it
 
 def step(scene: Scene, point: OperatingPoint, state: ContactState, dt: float) -> Found:
     """Return the state and the outputs after a step of `dt` [s]."""
-    return evolution.advance(bound(scene, point, state), state, dt, _contact)
+    return evolution.advance(bound(scene, point, state), state, dt, _contacts(scene, derivatives=False))
 
 
 def derivatives(scene: Scene, point: OperatingPoint, state: ContactState) -> tuple[float, float, float, float]:
     """Return the derivatives of friction_force by speed_1, speed_2, load and temperature."""
     case = bound(scene, point, state).warmed(state.temperatures)
     assert state.means is not None
-    return evaluate(case, tribofilms_of(state.means)).derivatives
+    return _contacts(scene, derivatives=True)(case, tribofilms_of(state.means)).derivatives
 
 
-def _contact(case: Case, tribofilms: Tribofilms) -> MeanContact:
-    return evaluate(case, tribofilms, derivatives=False)
+def _contacts(scene: Scene, *, derivatives: bool) -> evolution.ContactOf:
+    """Return the function that evaluates contacts, with the map of the scene if it has one."""
+    if not isinstance(scene.film, Mapped):
+
+        def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
+            return evaluate(case, tribofilms, derivatives)
+
+        return contact_of
+    chart = map_of(scene)
+
+    def mapped_contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
+        return corrected(chart, case, evaluate(case, tribofilms, derivatives))
+
+    return mapped_contact_of
 
 
 def first_state(scene: Scene) -> ContactState:

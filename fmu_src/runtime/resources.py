@@ -1,22 +1,27 @@
 """Resources of an FMU for its slave, written and read in one place.
 
-`scene.json` is the scene, `heights_*.npy` are its heights from files, `versions.json` the packages it was built with;
-`slavemodule.txt` names the script that defines the slave. The name of the script contains a fingerprint of scene and
-versions: two FMUs in one process never share a module, and an edited scene is detected. An isolated FMU has in addition
-`start.py`, which its library runs, `guid.txt`, and `python.txt` if an interpreter was recorded (package.build).
+`scene.json` is the scene, `heights_*.npy` are its heights from files, `map_*.json` is its map from a file,
+`versions.json` the packages it was built with; `slavemodule.txt` names the script that defines the slave. The name of
+the script contains a fingerprint of scene and versions: two FMUs in one process never share a module, and an edited
+scene is detected. An isolated FMU has in addition `start.py`, which its library runs, `guid.txt`, and `python.txt` if
+an interpreter was recorded (package.build).
 """
 
 import functools
 import hashlib
 import json
 import uuid
+import zlib
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pythonfmu
 
 import contact_core
 from contact_core.errors import SceneError
+from contact_core.film.mapped import MAP_SUFFIX, map_file
+from contact_core.mapped.map import map_of
 from contact_core.scene import Scene
 
 from ..flavours import Flavour, Version
@@ -74,15 +79,35 @@ def _packed(scene: Scene) -> Scene:
         surface if surface.heights is None else replace(surface, heights=surface.heights.packed)
         for surface in (scene.surface_1, scene.surface_2)
     )
-    return replace(scene, surface_1=first, surface_2=second)
+    return replace(scene, surface_1=first, surface_2=second, film=_packed_film(scene))
+
+
+def _packed_film(scene: Scene) -> Any:
+    """Return the record of the film with a map from a file under the name that it has in an FMU."""
+    film: Any = scene.film
+    text = _map_text(scene)
+    return film if text is None else replace(film, file=f"map_{zlib.crc32(text):08x}{MAP_SUFFIX}")
+
+
+def _map_text(scene: Scene) -> bytes | None:
+    """Return the map of the scene if it is one from a file; shipped ones come with the package.
+
+    Raises SceneError if a scene at the level of maps has none.
+    """
+    file = map_file(scene.film)
+    if file is None:
+        return None
+    chart = map_of(scene)
+    return chart.to_text().encode() if file.endswith(MAP_SUFFIX) else None
 
 
 def files(scene: Scene) -> dict[str, bytes]:
     """Return name and content of every file in `resources/` that both flavours have."""
-    module, scene = module_name(scene), _packed(scene)
+    module, chart, scene = module_name(scene), _map_text(scene), _packed(scene)
     given = (surface.heights for surface in (scene.surface_1, scene.surface_2))
     return {
         **{heights.file: heights.npy() for heights in given if heights is not None},
+        **({str(map_file(scene.film)): chart} if chart is not None else {}),
         "scene.json": (json.dumps(scene.to_dict(), indent=1) + "\n").encode(),
         "versions.json": (json.dumps(VERSIONS, indent=1) + "\n").encode(),
         "slavemodule.txt": module.encode(),

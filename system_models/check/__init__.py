@@ -5,12 +5,14 @@
     model_rules  rules on the model description; unit_rules: on its units; binaries: on the libraries
     deep         rules that run the FMU, each in processes of its own, watched for crashes and hangs, within a budget
     stages       the entry of such a process
-    answers      rules on the answers of the FMU; reference: on the results that it carries
+    answers      rules on the answers of the FMU; derivatives: on those that it gives itself
+    reference    rules on the results that it carries
     calls        rules on calls that a host should not make
     hosts        rules on the effects of the FMU on its host; confine: the folders that it may write to
-    instance     one instance of the FMU, its calls written down; rows: outputs of runs, side by side
+    instance     one instance of the FMU, its calls written down; library: its library, whatever the version of FMI
+    rows         outputs of runs, side by side
     start        the start values of a run, where they are not the FMU's own
     verdict      verdicts and answers; report: the printed table
 
-Only FMI 2.0 co-simulation is run. For other FMUs the static rules that apply are answered.
+Co-simulation of FMI 2.0 and 3.0 is run. For other FMUs the static rules that apply are answered.
 """

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from .instance import Fmu, Instance, Row
 from .rows import STEPS, again, difference, reals_of, rows_alone, rows_of
-from .variables import elsewhere, extremes, magnitude
+from .variables import elsewhere, extremes, is_real, magnitude
 from .verdict import Answer, failed, not_applicable, noted, passed, some
 
 _SPLIT = 1e-3  # of the magnitude: a difference by the size of the step that is worth a note
@@ -38,7 +38,10 @@ def run(fmu: Fmu, notebook: Path) -> Answer:
         rows = rows_of(fmu, instance)
         FirstRun(rows, _has_child()).write(notebook)
         instance.terminate()
-    return passed(f"Instantiated, initialised, {STEPS} steps of {fmu.step:g} s, terminated, freed.")
+    done = f"Instantiated, initialised, {STEPS} steps of {fmu.step:g} s, terminated, freed."
+    if fmu.unread:
+        return noted(f"{done} Arrays, clocks and binary data are not read here: {some(fmu.unread)}.")
+    return passed(done)
 
 
 def _has_child() -> bool | None:
@@ -53,7 +56,7 @@ def _has_child() -> bool | None:
 
 def finite(fmu: Fmu, notebook: Path) -> Answer:
     """Check that no output of the run was NaN or infinite."""
-    reals = [v.name for v in fmu.outputs if v.type == "Real"]
+    reals = [v.name for v in fmu.outputs if is_real(v)]
     for number, row in enumerate(FirstRun.read(notebook).rows):
         if broken := sorted(name for name in reals if not math.isfinite(float.fromhex(row[name]))):
             return failed(f"{some(broken)} not finite after {number} step(s), with inputs about their start values.")
@@ -132,7 +135,7 @@ def splitting(fmu: Fmu, notebook: Path) -> Answer:
         return failed(f"{some(broken)} not finite after two steps of {0.5 * fmu.step:g} s.")
     largest, name = 0.0, ""
     for variable in fmu.outputs:
-        if variable.type == "Real" and variable.name not in already:
+        if is_real(variable) and variable.name not in already:
             size = max(magnitude(variable), abs(float(whole[variable.name])))
             largest, name = max((largest, name), (_distance(whole, halves, variable.name) / size, variable.name))
     if largest > _SPLIT:

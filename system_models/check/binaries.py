@@ -5,6 +5,8 @@ import zipfile
 import zlib
 from pathlib import PurePosixPath
 
+from fmpy.fmi3 import FMU3Slave
+
 from fmu_src.isolated.native import image
 
 from .package import Package
@@ -21,6 +23,9 @@ _CO_SIMULATION = [
 # fmt: on
 _STATE = ["GetFMUstate", "SetFMUstate", "FreeFMUstate"]
 _BYTES = ["SerializedFMUstateSize", "SerializeFMUstate", "DeSerializeFMUstate"]
+
+# FMI 3.0.1 wants all functions of fmi3Functions.h, also those of interfaces that the FMU does not have
+_FMI3 = sorted(name for name in dir(FMU3Slave) if name.startswith("fmi3"))
 
 # FMI 3's names of the platforms in the folders of FMI 2, which name no processor
 _FOLDERS = {
@@ -74,15 +79,16 @@ def _unfit(package: Package) -> str:
 
 
 def functions(package: Package) -> Answer:
-    """Check that the binaries export the functions of FMI 2.0 co-simulation."""
+    """Check that the binaries export the functions of their version of FMI."""
     description = package.description
-    if description is None or description.coSimulation is None or package.version != "2.0":
-        return not_applicable("The list is that of FMI 2.0 co-simulation.")
+    if description is None or description.coSimulation is None or not package.runs:
+        return not_applicable("The lists are those of co-simulation of FMI 2.0 and 3.0.")
     able = description.coSimulation
     wanted = [*_CO_SIMULATION, *_STATE * able.canGetAndSetFMUstate, *_BYTES * able.canSerializeFMUstate]
+    wanted = [f"fmi2{name}" for name in wanted] if package.version == "2.0" else _FMI3
     libraries, unread = _libraries(package)
     for platform, library in libraries.items():
-        missing = [f"fmi2{name}" for name in wanted if f"fmi2{name}" not in library.exports]
+        missing = [name for name in wanted if name not in library.exports]
         if missing:
             return failed(f"The binary for {platform} does not export {some(missing)}.")
     if not libraries:

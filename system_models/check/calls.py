@@ -6,10 +6,12 @@ from functools import partial
 from pathlib import Path
 
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import fmi2ModelExchange
 
+from ..fmu.model import kind
 from .instance import Fmu, Instance, RefusedError, Row
+from .library import Instead
 from .rows import again, difference, reals_of
+from .variables import is_readable
 from .verdict import Answer, not_applicable, noted, passed, some
 
 _OTHER_GUID = "00000000-0000-0000-0000-000000000000"
@@ -18,8 +20,8 @@ _FOREIGN = b"\xff\xfe \xc3( \x80"  # no UTF-8
 
 
 def guid(fmu: Fmu, notebook: Path) -> Answer:
-    """Check that the binary refuses a guid that is not its own."""
-    if _refused(fmu, fmuGUID=_OTHER_GUID):
+    """Check that the binary refuses a guid, from FMI 3.0 on an instantiation token, that is not its own."""
+    if _refused(fmu, {"token": _OTHER_GUID}):
         return passed("It refuses to be instantiated with another guid.")
     return noted("It is instantiated with another guid, too: nothing shows that description and binary do not match.")
 
@@ -28,21 +30,21 @@ def interface(fmu: Fmu, notebook: Path) -> Answer:
     """Check that an interface that the FMU does not have is refused."""
     if fmu.description.modelExchange is not None:
         return not_applicable("It has both interfaces.")
-    if _refused(fmu, fmuType=fmi2ModelExchange):
+    if _refused(fmu, {"model_exchange": True}):
         return passed("It refuses to be instantiated for model exchange.")
     return noted("It is instantiated for model exchange, too, which it does not have.")
 
 
 def resources(fmu: Fmu, notebook: Path) -> Answer:
     """Check that a missing resource location does no harm."""
-    if _refused(fmu, fmuResourceLocation=None):
+    if _refused(fmu, {"resources": None}):
         return passed("Without a resource location it refuses to be instantiated.")
     return passed("It is instantiated without a resource location.")
 
 
-def _refused(fmu: Fmu, **instead: object) -> bool:
+def _refused(fmu: Fmu, instead: Instead) -> bool:
     try:
-        instance = Instance(fmu, **instead)
+        instance = Instance(fmu, instead)
     except RefusedError:
         return True
     instance.free()
@@ -59,9 +61,10 @@ def stop_time(fmu: Fmu, notebook: Path) -> Answer:
         refused, said = instance.objection(instance.step)
     if refused:
         return passed(f"A step up to the stop time is taken, one beyond it is answered with {said}.")
-    # FMI 2.0 demands fmi2Error, but few exporters give it, and what was computed up to the stop time is right
+    # FMI demands an error, but few exporters give it, and what was computed up to the stop time is right
     status = f" with {said}" if said else ", and nothing says so"
-    return noted(f"A step beyond the stop time is taken{status}; FMI 2.0 wants it to be answered with fmi2Error.")
+    error = f"{fmu.library.prefix}Error"
+    return noted(f"A step beyond the stop time is taken{status}; FMI wants it to be answered with {error}.")
 
 
 def communication_point(fmu: Fmu, notebook: Path) -> Answer:
@@ -91,8 +94,8 @@ def order(fmu: Fmu, notebook: Path) -> Answer:
     with again(fmu, steps=1) as get:
         expected = list(_onward(fmu, get()))
         instance = get()
-        ask(instance, "fmi2EnterInitializationMode after a step", instance.enter)
-        ask(instance, "fmi2ExitInitializationMode after a step", instance.leave)
+        for name, call in (("Enter", instance.enter), ("Exit", instance.leave)):
+            ask(instance, f"{fmu.library.prefix}{name}InitializationMode after a step", call)
         rows: list[Row] = []
         try:
             rows.extend(_onward(fmu, instance))
@@ -128,9 +131,8 @@ def foreign_text(fmu: Fmu, notebook: Path) -> Answer:
 
 def _settable_texts(fmu: Fmu) -> list[str]:
     """Return Strings that may be set before initialisation."""
-    variables = fmu.description.modelVariables
-    settable = [v for v in variables if v.causality in ("input", "parameter") and v.variability != "constant"]
-    return [v.name for v in settable if v.type == "String"]
+    texts = [v for v in fmu.description.modelVariables if kind(v) == "string" and is_readable(v)]
+    return [v.name for v in texts if v.causality in ("input", "parameter") and v.variability != "constant"]
 
 
 def _set_texts(fmu: Fmu, text: bytes) -> Answer | None:

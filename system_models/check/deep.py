@@ -36,6 +36,7 @@ RULES: dict[str, tuple[str, ...]] = {
     "unusable input": ("unusable",),
     "text": ("long_text", "foreign_text"),
     "feedthrough": ("feedthrough",),
+    "derivatives": ("derivatives",),
     "reset": ("reset",),
     "two instances": ("interleaved",),
     "reloading": ("reloading",),
@@ -91,8 +92,8 @@ def findings(
 def _reason_not_to_run(package: Package) -> str:
     if static.archive(package).verdict is Verdict.FAIL:
         return "The archive is not fit to be unpacked."
-    if package.description is None or package.version != "2.0" or package.description.coSimulation is None:
-        return "Only FMI 2.0 co-simulation is run."
+    if package.description is None or package.description.coSimulation is None or not package.runs:
+        return "Only co-simulation of FMI 2.0 and 3.0 is run."
     if package.platform not in package.binaries:
         return f"There is no binary for this machine, {package.platform}."
     return ""

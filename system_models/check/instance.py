@@ -4,26 +4,24 @@ import logging
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from ctypes import byref, c_int, c_void_p, cdll
+from ctypes import c_void_p
 from functools import partial
 from io import FileIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import fmpy
-from fmpy import freeLibrary
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import fmi2String, fmi2ValueReference
 
 from ..fmu import messages
-from ..fmu.fmi2 import FMU2Library
+from ..fmu.model import kind
+from .library import STATUS, FMU2Checked, FMU3Checked, Instead, Library
 from .start import Start
-from .variables import base_type, clipped, magnitude
+from .variables import clipped, is_readable, is_real, magnitude
 
 Value = float | int | bytes
 Row = dict[str, str]  # outputs as text that differs where bits differ
 
-_STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")
 _LONGEST = 300  # characters of a message, from its end, where a traceback names the error
 _FEW = 100.0  # steps in an experiment that names no step
 
@@ -78,8 +76,11 @@ class Fmu:
         self.variables = {v.name: v for v in variables}
         for name, value in start.items():
             self.variables[name].start = str(value)
-        self.outputs = [v for v in variables if v.causality == "output"]
-        self.inputs = [v for v in variables if v.causality == "input" and v.type == "Real"]
+        self.library = FMU3Checked if self.description.fmiVersion.startswith("3") else FMU2Checked
+        outputs = [v for v in variables if v.causality == "output"]
+        self.outputs = [v for v in outputs if is_readable(v)]
+        self.unread = [v.name for v in outputs if not is_readable(v)]  # arrays, clocks and binary data of FMI 3
+        self.inputs = [v for v in variables if v.causality == "input" and is_real(v) and is_readable(v)]
         self.start_time, self.step = _experiment(self.description.defaultExperiment)
         self._complaints = _complaints()
         self.fault = ""  # the call that an instance has refused, and how
@@ -103,7 +104,7 @@ class Fmu:
     def refused(self, call: str, status: int) -> None:
         """Remember that an instance has answered a call with an error."""
         said = self.complaint()
-        self.fault = f"{call}{self.where} was answered with {_STATUS[status]}{f' ({said})' if said else ''}"
+        self.fault = f"{call}{self.where} was answered with {STATUS[status]}{f' ({said})' if said else ''}"
 
     def complaint(self) -> str:
         """Return the end of the last error that the FMU has reported."""
@@ -148,50 +149,33 @@ def _complaints() -> Complaints:
     return found
 
 
-class FMU2Checked(FMU2Library):  # fmpy takes the version of FMI from the name
-    """The library of an FMU, with calls that only the check makes."""
-
-    warned = False  # a call was answered with a warning since this was set to False
-    dll: Any
-
-    def _call(self, name: str, *arguments: Any) -> Any:
-        answer = super()._call(name, *arguments)
-        self.warned |= self._functions[name].restype is c_int and _STATUS[answer] == "warning"
-        return answer
-
-    def reload(self) -> None:
-        """Unload the library, as far as it lets itself be unloaded, and load it again."""
-        path = self.dll._name
-        freeLibrary(self.dll._handle)
-        self.dll = cdll.LoadLibrary(path)
-        self._loadFunctions()
-
-
 class Instance:
     """An instance of an FMU, with variables by name."""
 
-    def __init__(self, fmu: Fmu, **instead: Any):
-        """Instantiate; `instead` are other arguments of fmi2Instantiate than the right ones, by FMI's names."""
+    def __init__(self, fmu: Fmu, instead: Instead | None = None):
+        """Instantiate, with some other arguments than the right ones where `instead` names them."""
         self._owner = fmu
         self.fatal = False
         self.time = fmu.start_time
-        description, identifier = fmu.description, fmu.capabilities.modelIdentifier
-        fmu.note("fmi2Instantiate" + "".join(f" with {name} = {value}" for name, value in instead.items()))
-        self._fmu = FMU2Checked(description, str(fmu.folder))
-        self._create = partial(self._fmu.create, identifier, **instead)
+        self._experiment: tuple[Any, ...] = (None, fmu.start_time, None)  # tolerance, start and stop time
+        function, unusual = fmu.library.instantiation(instead or {})
+        fmu.note(function + "".join(f" with {name} = {value}" for name, value in unusual.items()))
+        self._fmu: Library = fmu.library(fmu.description, str(fmu.folder))
+        self._create = partial(self._fmu.new, fmu.capabilities.modelIdentifier, instead or {})
         self._fmu.component = self._create()
         if self._fmu.component is None:
             self._fmu.freeLibrary()
             raise RefusedError(f"It cannot be instantiated{fmu.where}.")
 
     def _call(self, method: str, *arguments: Any, about: str = "") -> Any:
-        call = f"fmi2{method.removeprefix('fmi2')[0].upper()}{method.removeprefix('fmi2')[1:]}{about}"
+        method = self._fmu.spelt(method)
+        call = f"{self._fmu.prefix}{method[0].upper()}{method[1:]}{about}"
         self._owner.note(call)
         try:
             return getattr(self._fmu, method)(*arguments)
         except FMICallException as error:
             self._owner.refused(call, error.status)
-            self.fatal = _STATUS[error.status] == "fatal"
+            self.fatal = STATUS[error.status] == "fatal"
             raise
 
     def objection(self, call: Callable[[], None]) -> Objection:
@@ -202,7 +186,7 @@ class Instance:
             call()
         except FMICallException as error:
             self._owner.fault = ""  # it is right
-            return Objection(True, _STATUS[error.status])
+            return Objection(True, STATUS[error.status])
         if self._fmu.warned:
             return Objection(False, "warning")
         gone = sorted(truths - self._truths())
@@ -210,17 +194,19 @@ class Instance:
 
     def _truths(self) -> set[str]:
         """Return Boolean outputs that are true."""
-        names = [v.name for v in self._owner.outputs if v.type == "Boolean"]
+        names = [v.name for v in self._owner.outputs if kind(v) == "boolean"]
         return {name for name, value in self.read(names).items() if value}
 
     def set_up(self, stop: float | None = None) -> None:
-        """Give the start time and, if there is one, the stop time."""
+        """Give the start time and, if there is one, the stop time: to FMI 3.0 when initialisation begins."""
         self.time = self._owner.start_time
-        self._call("setupExperiment", None, self.time, stop)
+        self._experiment = None, self.time, stop
+        if self._fmu.sets_up:
+            self._call("setupExperiment", *self._experiment)
 
     def enter(self) -> None:
         """Begin initialisation."""
-        self._call("enterInitializationMode")
+        self._call("enterInitializationMode", *(() if self._fmu.sets_up else self._experiment))
 
     def leave(self) -> None:
         """End initialisation."""
@@ -238,26 +224,31 @@ class Instance:
         """Set variables by name."""
         for name, value in values.items():
             variable = self._owner.variables[name]
-            kind = base_type(variable)
             if isinstance(value, str):
                 self.put_text(name, value.encode())
                 continue
-            typed = value if kind == "Real" else int(value)
-            self._call(f"set{kind}", [variable.valueReference], [typed], about=f" of {name} = {value:g}")
+            typed = value if is_real(variable) else int(value)
+            setter = f"set{self._fmu.type_of(variable)}"
+            self._call(setter, [variable.valueReference], [typed], about=f" of {name} = {value:g}")
 
     def put_text(self, name: str, text: bytes) -> None:
         """Set a String to any bytes."""
-        reference, value = fmi2ValueReference(self._owner.variables[name].valueReference), fmi2String(text)
         about = f" of {name} = {text[:8]!r}{'...' if len(text) > 8 else ''}, {len(text)} bytes"
-        self._call("fmi2SetString", self._fmu.component, byref(reference), 1, byref(value), about=about)
+        self._call("setString", [self._owner.variables[name].valueReference], [text], about=about)
 
     def read(self, names: list[str]) -> dict[str, Value]:
         """Return values of variables by name."""
         found = {}
         for name in names:
             variable = self._owner.variables[name]
-            found[name] = self._call(f"get{base_type(variable)}", [variable.valueReference], about=f" of {name}")[0]
+            getter = f"get{self._fmu.type_of(variable)}"
+            found[name] = self._call(getter, [variable.valueReference], about=f" of {name}")[0]
         return found
+
+    def partial(self, output: str, name: str) -> float:
+        """Return the derivative of an output by an input that it depends on directly."""
+        references = [[self._owner.variables[n].valueReference] for n in (output, name)]
+        return self._call("getDirectionalDerivative", *references, [1.0], about=f" of {output} by {name}")[0]
 
     def step(self, size: float | None = None, inputs: dict[str, float] | None = None) -> None:
         """Set the inputs and step, by the default experiment's step if no size is given."""
@@ -285,27 +276,27 @@ class Instance:
 
     def save(self) -> tuple[c_void_p, float]:
         """Return the FMU's state and its time."""
-        return self._call("getFMUstate"), self.time
+        return self._call("getFMUState"), self.time
 
     def restore(self, saved: tuple[c_void_p, float]) -> None:
         """Go back to a saved state, which stays."""
-        self._call("setFMUstate", saved[0])
+        self._call("setFMUState", saved[0])
         self.time = saved[1]
 
     def forget(self, saved: tuple[c_void_p, float]) -> None:
         """Free a saved state."""
-        self._call("freeFMUstate", saved[0])
+        self._call("freeFMUState", saved[0])
 
     def stored(self) -> bytes:
         """Return the state as bytes."""
         saved = self.save()
-        data = self._call("serializeFMUstate", saved[0])
+        data = self._call("serializeFMUState", saved[0])
         self.forget(saved)
         return data
 
     def resume(self, data: bytes, time: float) -> None:
         """Go on from stored bytes."""
-        saved = self._call("deSerializeFMUstate", data), time
+        saved = self._call("deserializeFMUState", data), time
         self.restore(saved)
         self.forget(saved)
 
@@ -326,13 +317,13 @@ class Instance:
 
     def be_quiet_unwritten(self) -> None:
         """Switch logging off."""
-        self._fmu.fmi2SetDebugLogging(self._fmu.component, False, 0, None)
+        self._fmu.be_quiet()
 
     def come_and_go(self) -> None:
         """Make another instance and free it."""
         component = self._create()
         if component:
-            self._fmu.fmi2FreeInstance(component)
+            self._fmu.discard(component)
 
     def free(self) -> None:
         """Free the instance; after a fatal status FMI allows no further call."""

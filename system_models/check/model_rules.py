@@ -8,7 +8,7 @@ from functools import wraps
 from fmpy.model_description import ModelDescription, ModelVariable
 
 from .package import DESCRIPTION, Package
-from .variables import attribute, base_type, is_real
+from .variables import attribute, is_real
 from .verdict import Answer, failed, not_applicable, noted, passed, some
 
 Rule = Callable[[Package], Answer]
@@ -80,7 +80,8 @@ def aliases(description: ModelDescription) -> Answer:
     groups: dict[tuple[str, int], list[ModelVariable]] = {}
     for v in description.modelVariables:
         if v.alias is None:
-            groups.setdefault((base_type(v), v.valueReference), []).append(v)
+            reached = "Integer" if v.type == "Enumeration" else v.type  # FMI 2.0 counts within a type
+            groups.setdefault((reached, v.valueReference), []).append(v)
     shared = [group for group in groups.values() if len(group) > 1]
     for group in shared:
         if len({attribute(v, "unit") for v in group}) > 1:

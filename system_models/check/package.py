@@ -42,6 +42,11 @@ class Package:
         return self.root.get("fmiVersion", "")
 
     @property
+    def runs(self) -> bool:
+        """True for the FMI versions that can be run here."""
+        return self.version == "2.0" or self.version.startswith("3.")
+
+    @property
     def platform(self) -> str:
         """FMI's name of this machine: the folder of its binaries."""
         return fmpy.platform_tuple if self.version.startswith("3") else fmpy.platform

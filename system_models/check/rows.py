@@ -5,6 +5,7 @@ from contextlib import ExitStack, contextmanager
 from ctypes import c_void_p
 
 from .instance import Fmu, Instance, Row
+from .variables import is_real
 
 STEPS = 3
 
@@ -27,7 +28,7 @@ def rows_alone(fmu: Fmu, first: int = 0) -> list[Row]:
 def reals_of(fmu: Fmu, instance: Instance) -> Row:
     """Return the Real outputs alone: others may show what is wrong."""
     row = instance.row()
-    return {v.name: row[v.name] for v in fmu.outputs if v.type == "Real"}
+    return {v.name: row[v.name] for v in fmu.outputs if is_real(v)}
 
 
 def difference(rows: list[Row], expected: list[Row]) -> str:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from fmpy.fmi1 import FMICallException
 
-from . import answers, calls, hosts, reference
+from . import answers, calls, derivatives, hosts, reference
 from .instance import Fmu
 from .start import Start
 from .verdict import Answer, failed
@@ -29,7 +29,7 @@ STAGES: dict[str, Stage] = {
         calls.guid, calls.interface, calls.resources, calls.stop_time, calls.communication_point, calls.order,
         calls.long_text, calls.foreign_text,
         hosts.memory, hosts.reloading, hosts.home, hosts.children, hosts.fork,
-        reference.reference,
+        derivatives.derivatives, reference.reference,
     )
 }  # fmt: skip
 

@@ -4,8 +4,9 @@ from collections.abc import Iterable, Mapping
 
 from fmpy.model_description import ModelDescription, ModelVariable
 
+from ..fmu.model import kind
 from .package import FmuError
-from .variables import attribute, base_type
+from .variables import attribute, is_readable
 
 Start = Mapping[str, float | int | str]
 
@@ -21,6 +22,8 @@ def asked(description: ModelDescription, settings: Iterable[tuple[str, str]]) ->
         variable = variables.get(name)
         if variable is None or variable.causality not in ("input", "parameter"):
             raise FmuError(f"'{name}' is no input or parameter of the FMU. Name one of them in --set.")
+        if not is_readable(variable):
+            raise FmuError(f"'{name}' is no single number, Boolean or String. Name another variable in --set.")
         try:
             found[name] = _value(variable, text)
         except (KeyError, ValueError):
@@ -29,16 +32,16 @@ def asked(description: ModelDescription, settings: Iterable[tuple[str, str]]) ->
 
 
 def _value(variable: ModelVariable, text: str) -> float | int | str:
-    kind = base_type(variable)
-    if kind == "Boolean":
+    wanted = kind(variable)
+    if wanted == "boolean":
         return _TRUTH[text.lower()]
-    return text if kind == "String" else int(text) if kind == "Integer" else float(text)
+    return text if wanted == "string" else int(text) if wanted == "integer" else float(text)
 
 
 def cheapest(description: ModelDescription) -> Start:
     """Return the lowest level of an FMU that has several and starts at a higher one."""
     for variable in description.modelVariables:
-        if variable.name == _LEVEL and variable.causality == "parameter" and base_type(variable) == "Integer":
+        if variable.name == _LEVEL and variable.causality == "parameter" and kind(variable) == "integer":
             try:
                 lowest, own = int(attribute(variable, "min") or ""), int(variable.start)
             except (TypeError, ValueError):  # the static rules say so

@@ -20,6 +20,11 @@ _SCHEMATA = {
     "2": "fmi2/fmi2ModelDescription.xsd",
     "3": "fmi3/fmi3ModelDescription.xsd",
 }
+_OTHER_SCHEMATA = {  # FMUs of FMI 2.0 may have them, too
+    "terminalsAndIcons/terminalsAndIcons.xml": "fmi3/fmi3TerminalsAndIcons.xsd",
+    "sources/buildDescription.xml": "fmi3/fmi3BuildDescription.xsd",
+}
+_PARSER = etree.XMLParser(resolve_entities=False)
 
 
 def archive(package: Package) -> Answer:
@@ -44,15 +49,28 @@ def _leaves(name: str) -> bool:
 
 
 def schema(package: Package) -> Answer:
-    """Check the model description against the XSD of its FMI version."""
+    """Check the model description, terminals and build description against the XSDs of FMI."""
     file = _SCHEMATA.get(package.version[:1])
     if file is None:
         return failed(f"fmiVersion = '{package.version}' is none of 1.0, 2.0, 3.0.")
-    xsd = etree.XMLSchema(file=str(Path(fmpy.__file__).parent / "schema" / file))
-    if xsd.validate(package.root):
-        return passed(f"{DESCRIPTION} is valid FMI {package.version}.")
+    documents = {DESCRIPTION: file} | {name: xsd for name, xsd in _OTHER_SCHEMATA.items() if name in package.names}
+    for name, file in documents.items():
+        if wrong := _invalid(package, name, file):
+            return failed(wrong)
+    return passed(f"Valid FMI {package.version}: {some([*documents])}.")
+
+
+def _invalid(package: Package, name: str, schema_file: str) -> str:
+    """Return the first error of a document in the archive; an empty text if it is valid."""
+    xsd = etree.XMLSchema(file=str(Path(fmpy.__file__).parent / "schema" / schema_file))
+    try:
+        root = package.root if name == DESCRIPTION else etree.fromstring(package.archive.read(name), _PARSER)
+    except (etree.XMLSyntaxError, zipfile.BadZipFile, zlib.error) as error:
+        return f"{name} cannot be read: {error}."
+    if xsd.validate(root):
+        return ""
     first = xsd.error_log[0]
-    return failed(f"Line {first.line} of {DESCRIPTION}: {first.message}")
+    return f"Line {first.line} of {name}: {first.message}"
 
 
 def validation(package: Package) -> Answer:

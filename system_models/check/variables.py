@@ -1,11 +1,13 @@
 """Attributes of a variable in fmpy's model description."""
 
 import math
-from typing import Literal
 
 from fmpy.model_description import ModelVariable
 
+from ..fmu.model import kind
+
 _REALS = {"Real", "Float32", "Float64"}
+_KINDS = {"real", "float", "integer", "boolean", "string"}
 _MILLION = 1e6
 
 
@@ -14,9 +16,9 @@ def is_real(variable: ModelVariable) -> bool:
     return variable.type in _REALS
 
 
-def base_type(variable: ModelVariable) -> Literal["Real", "Integer", "Boolean", "String"]:
-    """Return the type by whose functions a variable of FMI 2 is reached; value references count within it."""
-    return "Integer" if variable.type == "Enumeration" else variable.type
+def is_readable(variable: ModelVariable) -> bool:
+    """Return True for a single number, Boolean or String; FMI 3.0 has arrays, clocks and binary data, too."""
+    return kind(variable) in _KINDS and not variable.dimensions
 
 
 def attribute(variable: ModelVariable, name: str) -> str | None:

@@ -6,6 +6,7 @@
     run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
     stribeck    stribeck: Stribeck curves
     fit         fit: constants of a scene from measured numbers
+    map         map: a scene's map for film.model = "map"
     build       build: the FMU of a scene
     check       check: verdicts on an FMU
     cosim       cosim: a system of FMUs

@@ -14,6 +14,7 @@ from typing import Protocol
 from contact_core.errors import ContactError
 
 from . import build, check, cosim, fit, listing, run, stribeck, surfaces
+from . import map as mapping
 
 
 class Command(Protocol):
@@ -33,6 +34,7 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "run": (run, "run a scene's contact, or a machine, through its duty"),
     "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),
     "fit": (fit, "fit constants of a scene to measured films, friction or wear"),
+    "map": (mapping, "make the map of a scene for film.model = 'map', by solved contacts"),
     "build": (build, "build the FMU of a scene, for another tool"),
     "check": (check, "give a verdict per rule on any FMU"),
     "cosim": (cosim, "simulate a system of FMUs"),

@@ -34,7 +34,7 @@ from fmu_src.runtime.slave import ContactSlave
 from fmu_src.variables import variables
 
 ROOT = Path(__file__).parents[2]
-REQUIRED = {"deterministic": {"points": 65, "domain": 1e-3, "floor": 1e-9}, "regression": {}, "auto": {}}
+REQUIRED = {"deterministic": {"points": 65, "domain": 1e-3, "floor": 1e-9}, "regression": {}, "auto": {}, "map": {}}
 OTHERS = {  # laws that the shipped scenes do not use
     "lubricant.set": "m100",
     "lubricant.rheology": "carreau",
@@ -130,7 +130,7 @@ def laws(record) -> list[object]:
 
 @pytest.mark.parametrize("flavour", ["embedded", "isolated", "native"])
 @pytest.mark.parametrize("changes", [{}, OTHERS], ids=["as shipped", "other laws"])
-@pytest.mark.parametrize("level", ["deterministic", "regression"])
+@pytest.mark.parametrize("level", ["deterministic", "regression", "map"])
 def test_the_page_is_well_nested_and_stands_alone(level, changes, flavour):
     scene = Scene.from_toml("mtm_zddp", SMALL | changes).at_level(level)
     page = Page(documentation(scene, flavour, reference=True))

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from comparison import approx
 from fmu_host import environment, hosted, unpacked
+from mapped_scene import mapped_scene
 from replay import replay
 from test_run import bits
 
@@ -16,7 +17,7 @@ from contact_core import RangeFlag, advance, initial_state
 from contact_core.quantities import LEVELS, OUTPUTS
 from fmu_src.package.build import build
 
-FAST, FULL, AUTO = 1, 2, 3
+FAST, FULL, AUTO, MAP = 1, 2, 3, 4
 UP_AND_DOWN = [(60.0, FULL), (30.0, FAST), (300.0, FAST), (60.0, FULL), (5.0, FAST)]
 FIELDS = {q.name for q in OUTPUTS if "regression" not in q.levels}
 
@@ -97,12 +98,37 @@ def test_a_state_between_two_levels_goes_on_in_another_process(stepped, folder, 
     assert json.loads(run.stdout) == replay(stepped, file.read_bytes(), steps)
 
 
-@pytest.mark.parametrize("fidelity", [0, 4, -1])
+@pytest.mark.parametrize("fidelity", [0, 5, -1])
 def test_a_level_that_there_is_not_is_refused_and_the_next_good_one_recovers(stepped, fidelity):
     before = stepped.outputs()
     assert stepped.step(60.0, fidelity=fidelity) == before | {"valid": False}
-    assert stepped.log[0][1] == f"fidelity = {fidelity} must be 1 (regression) or 2 (deterministic) or 3 (auto)."
+    known = "1 (regression) or 2 (deterministic) or 3 (auto) or 4 (map)"
+    assert stepped.log[0][1] == f"fidelity = {fidelity} must be {known}."
     assert stepped.step(60.0, fidelity=FULL)["valid"]
+
+
+def test_a_map_of_another_scene_is_refused_and_the_next_good_level_recovers(stepped):
+    before = stepped.outputs()
+    assert stepped.step(60.0, fidelity=MAP) == before | {"valid": False}
+    assert "belongs to another contact" in stepped.log[0][1] or "There is no shipped map" in stepped.log[0][1]
+    assert "tribofmu map" in stepped.log[0][1]
+    assert stepped.step(60.0, fidelity=FULL)["valid"]
+
+
+def test_an_fmu_takes_the_map_of_its_scene_along(tmp_path):
+    design = mapped_scene(tmp_path)
+    folder = unpacked(build(design, tmp_path / "mapped.fmu", "embedded"), tmp_path)
+    (tmp_path / "map.json").unlink()
+    design = mapped_scene(tmp_path / "again")
+    with hosted(folder) as host:
+        host.initialise()
+        rows = [host.step(dt, fidelity=fidelity) for dt, fidelity in ((60.0, MAP), (30.0, FAST), (60.0, MAP))]
+    for row, expected in zip(
+        rows, core_rows(design, [(0.0, MAP), (60.0, MAP), (30.0, FAST), (60.0, MAP)])[1:], strict=True
+    ):
+        assert bits(row) == bits({name: expected[name] for name in bits(row)})
+    assert rows[0]["fidelity_used"] == MAP
+    assert rows[0]["error_friction"] < 0.5 * rows[1]["error_friction"]
 
 
 def test_the_first_evaluation_is_at_the_level_asked_for_and_shows_nothing_of_another(host, scene):
@@ -140,7 +166,7 @@ def test_the_fmu_of_a_fast_scene_has_both_levels_and_the_outputs_of_its_own(quic
 def test_fidelity_is_tunable_and_starts_at_the_level_of_the_scene(host):
     variable = host.variables["fidelity"]
     assert (variable.type, variable.causality, variable.variability) == ("Integer", "parameter", "tunable")
-    assert (int(variable.start), int(variable.min), int(variable.max)) == (FULL, FAST, AUTO)
+    assert (int(variable.start), int(variable.min), int(variable.max)) == (FULL, FAST, MAP)
     assert host.get("fidelity_used") == 0
 
 

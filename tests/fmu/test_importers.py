@@ -7,25 +7,58 @@ import sys
 from pathlib import Path
 
 import pytest
-from fmu_host import environment
-from importers import IMPORTERS, PRINTED_DIGITS, STEP, STIMULI, UNUSABLE, real_outputs
+from fmu_host import environment, unpacked
+from imported_fmu import Fmu
+from importers import IMPORTERS, PRINTED_DIGITS, STEP, STIMULI, UNUSABLE
 from test_run import direct
 
-from benchmarks.hosts.native_host import OK, NativeHost
+from benchmarks.hosts.native_host import OK, NativeHost, plain_environment
+from fmu_src.flavours import VERSIONS
+from fmu_src.package.build import build
 
-EMBEDDED_REFUSED = {
-    "fmuloader": "fmuloader asks for the functions of model exchange, which pythonfmu's binary does not have",
-    "pyfmi": "PyFMI refuses FMUs with needsExecutionTool=true",
-    "fmusim": "a program without Python cannot load pythonfmu's binary",
+KINDS = [(flavour, fmi) for flavour, versions in VERSIONS.items() for fmi in versions]
+REFUSED = {  # by importer, and flavour or version of FMI
+    ("fmuloader", "embedded"): "fmuloader asks for the functions of model exchange, which pythonfmu's binary lacks",
+    ("pyfmi", "embedded"): "PyFMI refuses FMUs with needsExecutionTool=true",
+    ("fmusim", "embedded"): "a program without Python cannot load pythonfmu's binary",
+    ("pyfmi", 3): "PyFMI imports FMUs of FMI 3.0 for model exchange only",
+    ("libcosimpy", 3): "libcosim knows FMI 1.0 and 2.0, and crashes on others",
 }
-NAMED_BY = {"pyfmi": "TRIBOFMU_TEST_PYFMI", "fmusim": "TRIBOFMU_TEST_FMUSIM"}
+NAMED_BY = {
+    "pyfmi": "TRIBOFMU_TEST_PYFMI",
+    "fmusim": "TRIBOFMU_TEST_FMUSIM",
+    "omsimulator": "TRIBOFMU_TEST_OMSIMULATOR",
+}
+
+
+@pytest.fixture(scope="module", params=KINDS, ids=lambda kind: f"{kind[0]}-{kind[1]}")
+def kind(request):
+    """Flavour and version of FMI."""
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def file(kind, scene, quick, tmp_path_factory):
+    flavour, fmi = kind
+    own = quick if flavour == "native" else scene
+    return build(own, tmp_path_factory.mktemp("imported") / "small.fmu", flavour, fmi=fmi)
 
 
 @pytest.fixture(scope="session")
-def expected(scene, fmu_file):
-    """Real outputs after each step, from the core itself."""
+def of_the_core(scene):
+    """Outputs after each step, from the core itself."""
     rows, _ = direct(scene, [(STEP, inputs) for inputs in STIMULI])
-    found = [[row[name] for name in real_outputs(str(fmu_file))] for row in rows[1:]]
+    return rows[1:]
+
+
+@pytest.fixture(scope="module")
+def expected(kind, file, of_the_core):
+    """Real outputs after each step. C rounds otherwise than Python does: its bits are those of the first importer."""
+    fmu = Fmu.read(file)
+    if kind[0] == "native":
+        found = [[value.hex() for value in row] for row in IMPORTERS["fmpy"](fmu)]
+    else:
+        found = [[row[name] for name in fmu.outputs] for row in of_the_core]
     assert len({tuple(row) for row in found}) == len(STIMULI)
     return found
 
@@ -36,13 +69,13 @@ def printed(value: str, digits: int | None) -> str:
 
 
 @pytest.mark.parametrize("importer", IMPORTERS)
-def test_every_importer_gives_the_same_bits(importer, flavour, flavoured_file, expected, request):
-    if importer in EMBEDDED_REFUSED and flavour == "embedded":
-        request.applymarker(pytest.mark.xfail(strict=True, reason=EMBEDDED_REFUSED[importer]))
+def test_every_importer_gives_the_same_bits(importer, kind, file, expected, request):
+    for why in filter(None, (REFUSED.get((importer, which)) for which in kind)):
+        request.applymarker(pytest.mark.xfail(strict=True, reason=why))
     script = Path(__file__).with_name("importers.py")
     python = (importer == "pyfmi" and os.environ.get(NAMED_BY["pyfmi"])) or sys.executable
     run = subprocess.run(
-        [python, str(script), importer, str(flavoured_file)],
+        [python, str(script), importer, str(file)],
         capture_output=True,
         text=True,
         env=environment() | {"TRIBOFMU_PYTHON": sys.executable},
@@ -56,9 +89,11 @@ def test_every_importer_gives_the_same_bits(importer, flavour, flavoured_file, e
     assert run.returncode == 0, run.stderr[-2000:]
 
 
-def test_a_host_in_c_gives_the_same_bits(native_program, native_environment, flavoured_folder, expected):
-    host = NativeHost(native_program, native_environment)
-    instance = host.load(flavoured_folder).instance()
+def test_a_host_in_c_gives_the_same_bits(native_program, kind, file, expected, tmp_path, request):
+    embedded = kind[0] == "embedded"
+    surroundings = request.getfixturevalue("embedding") if embedded else plain_environment()
+    host = NativeHost(native_program, surroundings)
+    instance = host.load(unpacked(file, tmp_path / "small")).instance()
     assert instance.initialise() == [OK, OK, OK]
     rows = []
     for inputs in STIMULI:

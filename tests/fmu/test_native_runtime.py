@@ -86,6 +86,6 @@ def test_random_calls_find_faults(fault: str, tmp_path: Path) -> None:
     text = sources[file].decode()
     assert line in text
     sources[file] = text.replace(line, "").encode()
-    program = native_fuzz.compiled(tmp_path, sources, "-O1", "-Wno-unused")
+    program = native_fuzz.compiled(tmp_path, sources, "-O1", "-Wno-unused", *native_fuzz.COUNTED)
     with pytest.raises(RuntimeError, match=r"sequence \d+: "):
         native_fuzz.digest(program, SEQUENCES)

@@ -1,4 +1,4 @@
-"""The library for Windows in a Windows host, under Wine: pip install ziglang, apt-get install wine."""
+"""The libraries for Windows in a Windows host, under Wine: pip install ziglang, apt-get install wine."""
 
 import os
 import shutil
@@ -17,6 +17,7 @@ from benchmarks.hosts import native_host
 from benchmarks.hosts.native_host import ERROR, NONE, OK, Instance, NativeHost, plain_environment
 from benchmarks.hosts.processes import soon
 from contact_core import Scene
+from fmu_src.flavours import Version
 from fmu_src.package.build import build
 
 pytestmark = [
@@ -62,11 +63,11 @@ def hosts(programs: tuple[Path, Path], windows: dict[str, str], relay: Relay) ->
     return start
 
 
-def run(host: NativeHost, folder: Path) -> list[object]:
+def run(host: NativeHost, folder: Path, **start: int) -> list[object]:
     """Outputs of three steps, the last again after a restore."""
     instance = host.load(folder).instance()
     assert instance.created.status == OK
-    assert instance.initialise(surface_1__seed=3) == [OK] * 4
+    assert set(instance.initialise(**start)) == {OK}
     found: list[object] = []
     for load in (20.0, 40.0):
         assert instance.step(60.0, load=load) == OK
@@ -99,12 +100,31 @@ def gone(worker) -> bool:
     return soon(lambda: worker.poll() is not None)
 
 
-def test_windows_gives_the_bits_of_linux(hosts: Hosts, isolated: Path, tmp_path: Path) -> None:
+def agree(hosts: Hosts, folder: Path, tmp_path: Path, **start: int) -> None:
+    """Windows gives the bits of Linux, also after a restore."""
     with hosts() as host:
-        found = run(host, isolated)
+        found = run(host, folder, **start)
     with NativeHost(native_host.compiled(tmp_path), plain_environment()) as host:
-        assert run(host, isolated) == found
+        assert run(host, folder, **start) == found
     assert found[2] == found[3]
+
+
+def test_windows_gives_the_bits_of_linux(hosts: Hosts, isolated: Path, tmp_path: Path) -> None:
+    agree(hosts, isolated, tmp_path, surface_1__seed=3)
+
+
+def test_windows_gives_the_bits_of_linux_by_fmi_3(hosts: Hosts, scene: Scene, tmp_path: Path) -> None:
+    fmu = build(scene, tmp_path / "small.fmu", "isolated", fmi=3)
+    agree(hosts, unpacked(fmu, tmp_path / "a ü#+ b"), tmp_path, surface_1__seed=3)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_a_native_fmu_for_windows_gives_the_bits_of_linux(
+    hosts: Hosts, quick: Scene, relay: Relay, tmp_path: Path, fmi: Version
+) -> None:
+    fmu = build(quick, tmp_path / "native.fmu", "native", fmi=fmi)
+    agree(hosts, unpacked(fmu, tmp_path / "a ü#+ b"), tmp_path)
+    assert not relay.commands  # no Python
 
 
 def test_the_worker_is_started_isolated_and_for_one_instance(hosts: Hosts, isolated: Path, relay: Relay) -> None:

@@ -129,7 +129,10 @@ class WineHost(NativeHost):
 
     def load(self, folder: Path, uri: str | None = None, guid: str | None = None) -> Fmu:
         description = fmpy.read_model_description(str(folder), validate=False)
-        library = folder / "binaries" / "win64" / f"{description.coSimulation.modelIdentifier}.dll"
+        fmi3 = description.fmiVersion.startswith("3")
+        platform, nowhere = ("x86_64-windows", "C:\\nowhere\\") if fmi3 else ("win64", "file:///nowhere")
+        library = folder / "binaries" / platform / f"{description.coSimulation.modelIdentifier}.dll"
         number, self._fmus = self._fmus, self._fmus + 1
-        loaded = self.ask("fmu", number, windows_path(library), uri or "file:///nowhere", guid or description.guid)
+        token = guid or description.guid
+        loaded = self.ask("fmu", number, windows_path(library), uri or nowhere, token, *[3] * fmi3)
         return Fmu(self, number, loaded, {v.name: v for v in description.modelVariables})

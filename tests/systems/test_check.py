@@ -21,7 +21,7 @@ from system_models.check.verdict import Verdict
 def test_a_good_fmu_fails_no_rule_in_processes_of_its_own(slave: Callable[..., Path]) -> None:
     found = deep_findings(slave("good"))
     assert verdicts(found, Verdict.FAIL) == set()
-    assert verdicts(found, Verdict.NOT_APPLICABLE) == {"reference results", "text"}
+    assert verdicts(found, Verdict.NOT_APPLICABLE) == {"derivatives", "reference results", "text"}
     assert verdicts(found, Verdict.NOTE) - {"memory"} == LAX | {"unusable input"}
     assert "with another guid, too" in found["guid"].evidence
     assert "for model exchange, too" in found["interface"].evidence
@@ -142,7 +142,13 @@ def test_capabilities_that_are_not_declared_are_not_asked_for(slave: Callable[..
         return re.sub(r'(can(Get|Serial|Handle)\w+)="true"', r'\1="false"', text)
 
     found = answers(edited(slave("humble"), tmp_path / "humbler.fmu", humble))
-    assert verdicts(found, Verdict.NOT_APPLICABLE) == {"rollback", "serialise", "step splitting", "reference results"}
+    assert verdicts(found, Verdict.NOT_APPLICABLE) == {
+        "rollback",
+        "serialise",
+        "step splitting",
+        "derivatives",
+        "reference results",
+    }
     assert verdicts(found, Verdict.FAIL) == set()
 
 

@@ -1,4 +1,5 @@
 import logging
+import sys
 import tempfile
 import zipfile
 from itertools import pairwise
@@ -7,9 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from comparison import approx
 from fmpy.fmi1 import FMICallException
 
 from contact_core import ContactError, OperatingPoint, Scene, advance, initial_state
+from contact_core.quantities import OF_CALLER
+from fmu_src.flavours import Version
+from fmu_src.package.build import build
 from system_models.fmu.fmi2 import Fmi2Instance
 from system_models.run.contact import communication_points, run
 from system_models.run.duty import Duty
@@ -80,6 +85,29 @@ def test_the_run_equals_the_core_bit_for_bit(dataset: xr.Dataset, scene: Scene, 
         rows.append(out)
     for name in ("friction_force", "h_c", "tribofilm_2", "wear_volume_1", "range_flags", "blocks_mixed"):
         assert dataset[name].values.tolist() == [getattr(row, name) for row in rows], name
+
+
+def test_a_contact_of_fmi_3_runs_to_the_same_rows(
+    dataset: xr.Dataset, scene: Scene, duty: Duty, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
+    fmu = build(scene, tmp_path / "contact.fmu", "isolated", fmi=3)
+    found = run(fmu, duty, scene.operation.duration, scene.operation.interval)
+    for name in set(dataset) - OF_CALLER:
+        assert found[name].identical(dataset[name]), name
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_a_native_contact_runs_as_the_core_does(scene: Scene, duty: Duty, tmp_path: Path, fmi: Version) -> None:
+    """Its rounding is its own, which differences of the film's formulas magnify in the derivatives."""
+    quick = scene.at_level("regression")
+    fmus = build(quick, tmp_path / "native.fmu", "native", fmi=fmi), build(quick, tmp_path / "python.fmu", "embedded")
+    found, expected = (run(fmu, duty, scene.operation.duration, scene.operation.interval) for fmu in fmus)
+    for name in set(expected) - OF_CALLER:
+        assert found[name].values == approx(
+            expected[name].values, rel=1e-6 if name.startswith("dfriction") else 1e-11
+        ), name
+        assert found[name].attrs == expected[name].attrs
 
 
 def test_progress_tells_the_time_of_every_step(fmu: Path) -> None:

@@ -204,12 +204,17 @@ FEWER: dict[str, dict[str, str]] = {
 }  # contacts; each is a process
 
 
-@pytest.fixture(scope="module", params=COMPARED)
+@pytest.fixture(
+    scope="module",
+    params=[("bearing_209", "isolated"), ("mtm_rig", "isolated"), ("mtm_rig", "native")],
+    ids=lambda case: "-".join(case),
+)
 def compared(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Compared:
     """A machine's file, and what the master says of it after steps that bring it up to speed."""
-    folder, names = tmp_path_factory.mktemp(request.param), COMPARED[request.param]
-    assembly = exported(request.param, FEWER[request.param])
-    file = export_ssp(assembly.system(folder / "isolated", "isolated"), folder / "machine.ssp")
+    machine, flavour = request.param
+    folder, names = tmp_path_factory.mktemp(machine), COMPARED[machine]
+    assembly = exported(machine, FEWER[machine])
+    file = export_ssp(assembly.system(folder / flavour, flavour), folder / "machine.ssp")
     ours = marched(assembly.system(folder / "embedded"), names, 0.125, 64)  # the same bits, in less time
     return Compared(file, {name: float(ours[name].values[-1]) for name in names})
 
@@ -275,3 +280,8 @@ def test_each_machine_exports_as_ssp_that_others_read(machine: str, tmp_path: Pa
             assert float(values[name, key]) == value
     for target, value in assembly.parameters.items():
         assert float(values[tuple(target.split(".", 1))]) == value
+
+
+def test_a_flavour_is_for_an_exported_machine(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "mtm_rig", "--flavour", "native"]) == 2
+    assert "add --ssp FILE.ssp" in capsys.readouterr().err

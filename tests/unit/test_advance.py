@@ -450,7 +450,7 @@ def test_dry_pressures_are_weighted_by_the_share_of_the_solids():
         assert outputs.wear_rate_1 == approx(expected, rel=1e-9, abs=0.0)
 
 
-@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("level", [level for level in LEVELS if level != "map"])  # that one: properties/test_map_random
 def test_every_output_stays_within_its_declared_range_whichever_way_the_bodies_move(level):
     scene, fresh, op = cheap()
     scene, signs = scene.at_level(level), {}

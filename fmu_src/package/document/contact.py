@@ -14,7 +14,8 @@ from .markup import bullets, number, paragraph, plain, table
 
 _CELSIUS = 273.15  # K
 
-_MEASURED = {"auto": "regression"}  # level whose measured errors and costs are those of its steps without a block
+# levels whose measured errors and costs are those of another: of steps without a block, and outside a map
+_MEASURED = {"auto": "regression", "map": "regression"}
 
 
 def _numbers(factor: float, values: Iterable[float], unit: str) -> str:

@@ -110,6 +110,18 @@ LEVELS = {
         "wide, which is assumed.",
         _steps_in_closed_form,
     ),
+    "map": LevelText(
+        lambda scene: (
+            "means of both surfaces as at the regression level, corrected by a map of this scene: polynomials fitted "
+            "to deterministic blocks."
+        ),
+        lambda scene: iter(()),
+        _fitted_ranges,
+        "The derivatives of friction_force are total.",
+        "They come from the blocks of the map, and beyond its ranges, where range_flags reports it, from the fit of "
+        "the regression level.",
+        _steps_in_closed_form,
+    ),
     "auto": LevelText(
         lambda scene: (
             "means of both surfaces as at the regression level, corrected by deterministic blocks that are "

@@ -1,0 +1,29 @@
+"""Steps of the level `map`: those of the regression level, each contact corrected by the map of the scene."""
+
+from .. import regression
+from ..regression.contact import MeanContact, evaluate
+from ..regression.surfaces import Tribofilms
+from ..scene import Case, Scene
+from ..state import ContactState, Error, Outputs
+from .map import map_of
+from .query import corrected
+
+
+def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+    """Return the state and outputs after `dt` [s]. Raises SceneError if the scene has no map, or another one's."""
+    chart = map_of(case.scene)
+
+    def contact_of(now: Case, tribofilms: Tribofilms) -> MeanContact:
+        return corrected(chart, now, evaluate(now, tribofilms))
+
+    return regression.advance(case, state, dt, contact_of)
+
+
+def warm_up(case: Case, state: ContactState) -> None:
+    """Load what the first steps need."""
+    regression.warm_up(case, state)
+
+
+def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
+    """Return the errors of the outputs by name, each in the unit of its output; all by curves and map."""
+    return regression.errors_of(scene, state)

@@ -1,0 +1,121 @@
+"""The command `tribofmu map`: makes the map of a scene, for film.model = "map"."""
+
+import argparse
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from contact_core.errors import ContactError
+from contact_core.scene import Scene, units
+
+from .console import add_settings, note, output_folder
+from .scenes import refuse_machine, warn
+
+if TYPE_CHECKING:
+    from ..run.map_build import Built, Order
+
+_TIME = re.compile(r"\s*([0-9.]+)\s*(s|min|h)\s*$")
+_SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument("scene", metavar="NAME", help="a shipped scene (`tribofmu list`), or the path of a .toml file")
+    parser.add_argument("--out", metavar="DIR", help="folder of map, knots and report (default: results/NAME)")
+    parser.add_argument(
+        "--accuracy",
+        metavar="A",
+        default="5 %",
+        help="median half width (95 %%) of friction and h_c at which no more knots are solved (default: 5 %%)",
+    )
+    parser.add_argument(
+        "--time", metavar="T", default="30min", help="time after which no more knots are solved (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--processes", metavar="N", type=int, default=1, help="processes that solve knots (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--executor", metavar="dask://HOST:PORT", help="scheduler of a cluster that solves them instead (extra 'dask')"
+    )
+    for option, text in (
+        ("--load", "loads, such as 10:80, in N"),
+        ("--entrainment", "entrainment speeds, such as 0.01:1, in m/s"),
+        ("--slide-roll", "sliding over entrainment speed, of both directions, such as '1 %%:50 %%'"),
+        ("--temperature", "oil temperatures, such as '60 degC:100 degC'"),
+    ):
+        parser.add_argument(option, metavar="LOW:HIGH", help=f"{text} (default: about the scene's operation)")
+    add_settings(parser, "change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Make, print and write the map; return the exit code."""
+    from ..run import map_build, map_report
+    from ..run.map_ranges import OPTIONS, Ranges
+    from ..store.checkpoint import alone
+
+    refuse_machine(arguments.scene)
+    scene = Scene.from_toml(arguments.scene, dict(arguments.settings))
+    given = {name: text for name in OPTIONS if (text := getattr(arguments, name)) is not None}
+    order = map_build.Order(
+        scene,
+        Ranges.of(scene, given),
+        _accuracy(arguments.accuracy),
+        _seconds(arguments.time),
+        _processes(arguments.processes),
+        arguments.executor,
+    )
+    folder = output_folder(arguments.out, scene.name)
+    warn(scene)
+    with alone(folder):
+        built = _built(order, folder / "knots.jsonl")
+        print(*map_report.lines(built), sep="\n")
+        written = map_report.write(built, folder)
+    print(f"Written: {', '.join(map(str, written))}")
+    print(f"A scene uses the map by film.model = 'map' and film.file = '{written[0].resolve()}'.")
+    if not built.reached:
+        note("The time was over first. The same command goes on from the knots that are solved.")
+    return 0 if built.reached else 1
+
+
+def _accuracy(text: str) -> float:
+    accuracy = units.parse(text, "", "--accuracy")
+    if not 0.0 < accuracy <= 1.0:
+        raise ContactError(f"--accuracy = {text} must be above 0 and at most 100 %, such as 5 %.")
+    return accuracy
+
+
+def _seconds(text: str) -> float:
+    match = _TIME.match(text)
+    if not match:
+        raise ContactError(f"--time = '{text}' is not a time such as 90s, 30min or 2h.")
+    try:
+        return float(match[1]) * _SECONDS[match[2]]
+    except ValueError:
+        raise ContactError(f"--time = '{text}' is not a time such as 90s, 30min or 2h.") from None
+
+
+def _processes(count: int) -> int:
+    if not 1 <= count <= 1024:
+        raise ContactError(f"--processes = {count} must be at least 1 and at most 1024.")
+    return count
+
+
+def _built(order: "Order", file: Path) -> "Built":
+    """Make the map, with a counter of the knots."""
+    from tqdm import tqdm
+
+    from ..run.map_build import build
+
+    bar = tqdm(desc=order.scene.name, bar_format="{desc}: {n} knots{postfix} [{elapsed}]")
+
+    def show(count: int, halves: tuple[float, ...] | None) -> None:
+        if halves is not None:
+            friction, film, load = (f"{100.0 * half:.1f} %" for half in halves)
+            bar.set_postfix_str(f"friction {friction}, h_c {film}, W_c {load}", refresh=False)
+        bar.update(count - bar.n)
+
+    try:
+        with bar:
+            return build(order, file, show)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"Knots are kept in '{file}': the same command goes on from there.") from None

@@ -1,0 +1,117 @@
+"""Ranges of operating points and the places of the knots of a map, drawn at random."""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from contact_core.errors import ContactError
+from contact_core.scene import OperatingPoint, Scene, units
+
+Range = tuple[float, float]
+
+_LOADS, _SPEEDS, _SLIPS = (0.2, 2.0), (0.1, 3.0), (0.1, 10.0)  # times those of the scene's operation
+_WARMER = 25.0  # K, either way
+_SLIDING = 2.0  # sliding over entrainment speed of a body at rest
+_SLIP = 0.05  # of a scene that only rolls
+_HARD = 0.95  # of the hardness: the largest Hertz pressure
+_FRESH = 0.1  # share of the knots on new surfaces
+_EARLY = 3  # power by which times of rubbing come early
+OPTIONS = {"load": "N", "entrainment": "m/s", "slide_roll": "", "temperature": "K"}
+
+
+class Drawn(NamedTuple):
+    """Where a knot lies: its operating point, and that at which its surfaces have rubbed for some time [s]."""
+
+    point: OperatingPoint
+    before: OperatingPoint
+    rubbed: float
+
+
+@dataclass(frozen=True)
+class Ranges:
+    """Lowest and highest operating points of a map; of both directions of sliding."""
+
+    load: Range  # N
+    entrainment: Range  # m/s
+    slide_roll: Range  # sliding over entrainment speed
+    temperature: Range  # of the oil [K]
+    duration: float  # longest time for which surfaces have rubbed [s]
+
+    @staticmethod
+    def of(scene: Scene, given: dict[str, str]) -> "Ranges":
+        """Return the ranges about a scene's operation, those `given` as "LOW:HIGH" in their place.
+
+        The load is at most what grid and hardness allow. Raises ContactError for ranges that cannot be used.
+        """
+        point, operation = scene.operation.point, scene.operation
+        speed = abs(point.entrainment_speed)
+        slip = abs(point.sliding_speed) / speed if speed > 0.0 else _SLIDING
+        found = Ranges(
+            (_LOADS[0] * point.load, min(_LOADS[1] * max(point.load, scene.largest_load), _largest_load(scene))),
+            (_SPEEDS[0] * speed, _SPEEDS[1] * speed),
+            (_SLIPS[0] * (slip or _SLIP), min(_SLIPS[1] * (slip or _SLIP), _SLIDING)),
+            (point.temperature - _WARMER, point.temperature + _WARMER),
+            operation.duration,
+        )
+        chosen: dict[str, Any] = {name: _parsed(name, text) for name, text in given.items()}
+        found = replace(found, **chosen)
+        for name in ("load", "entrainment", "slide_roll"):
+            if not getattr(found, name)[0] > 0.0:
+                raise ContactError(
+                    f"The range of {name} begins at {getattr(found, name)[0]:g}. Give one above zero, such as "
+                    f"--{name.replace('_', '-')} LOW:HIGH."
+                )
+        return found
+
+    @property
+    def rows(self) -> tuple[tuple[str, float, float], ...]:
+        """Name, lowest and highest value [SI] of each."""
+        return tuple((name, *getattr(self, name)) for name in OPTIONS)
+
+    def draw(self, seed: int, number: int) -> Drawn:
+        """Return where a knot lies; the same for the same seed and number."""
+        random = np.random.Generator(np.random.Philox(key=[seed, number]))
+        point, before = self._point(random), self._point(random)
+        late = (float(random.random()) - _FRESH) / (1.0 - _FRESH)
+        return Drawn(point, before, self.duration * max(late, 0.0) ** _EARLY)
+
+    def _point(self, random: np.random.Generator) -> OperatingPoint:
+        load, speed, slip = (
+            float(np.exp(random.uniform(math.log(ends[0]), math.log(ends[1]))))
+            for ends in (self.load, self.entrainment, self.slide_roll)
+        )
+        temperature = float(random.uniform(*self.temperature))
+        half = math.copysign(0.5 * slip * speed, 0.5 - float(random.random()))
+        return OperatingPoint(load, speed + half, speed - half, temperature)
+
+
+def _largest_load(scene: Scene) -> float:
+    """Return the largest load [N] that grid and hardness have room for."""
+    low, high = scene.operation.load, 1e3 * scene.operation.load
+    for _ in range(60):
+        load = math.sqrt(low * high)
+        hertz = scene.hertz(load)
+        fits = hertz.a <= scene.room[0] and hertz.b <= scene.room[1]
+        low, high = (load, high) if fits and hertz.pressure_max <= _HARD * scene.plasticity.hardness else (low, load)
+    return low
+
+
+def _parsed(name: str, text: str) -> Range:
+    option = f"--{name.replace('_', '-')}"
+    low, colon, high = text.partition(":")
+    if not colon:
+        raise ContactError(f"{option} = '{text}' is not LOW:HIGH, such as 10:80.")
+    ends = _number(low, OPTIONS[name], option), _number(high, OPTIONS[name], option)
+    if not ends[0] < ends[1]:
+        raise ContactError(f"{option} = '{text}' must begin below its end.")
+    return ends
+
+
+def _number(text: str, unit: str, option: str) -> float:
+    """Return a number in SI units; without a unit it is in `unit`."""
+    try:
+        return float(text)
+    except ValueError:
+        return units.parse(text.strip(), unit, option)

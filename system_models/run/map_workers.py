@@ -1,0 +1,73 @@
+"""Workers that solve the knots of a map: this process, others on this machine, or a cluster."""
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager
+from itertools import islice
+from multiprocessing import get_context
+from typing import Any, TypeVar
+
+from contact_core.errors import ContactError
+
+Result = TypeVar("Result")
+_CLUSTER = "dask://"
+_AHEAD = 2  # tasks for each worker that are asked for
+
+
+@contextmanager
+def workers(processes: int, where: str | None) -> Iterator[tuple[Executor | None, int]]:
+    """Give an executor and how many tasks it works on at a time; None for this process.
+
+    `where` is "dask://HOST:PORT" of a scheduler. Raises ContactError if it cannot be used.
+    """
+    if where:
+        with _cluster(where) as found:
+            yield found
+    elif processes == 1:
+        yield None, 1
+    else:
+        with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
+            try:
+                yield pool, processes
+            finally:
+                pool.shutdown(wait=False, cancel_futures=True)
+
+
+@contextmanager
+def _cluster(where: str) -> Iterator[tuple[Executor, int]]:
+    if not where.startswith(_CLUSTER):
+        raise ContactError(f"--executor = '{where}' is not {_CLUSTER}HOST:PORT.")
+    try:
+        from distributed import Client
+    except ImportError:
+        raise ContactError(
+            "--executor dask://... needs dask.distributed: pip install 'tribofmu[dask]', or use --processes."
+        ) from None
+    try:
+        client = Client(f"tcp://{where.removeprefix(_CLUSTER)}", timeout="10s")
+    except (OSError, TimeoutError, ValueError) as error:
+        raise ContactError(f"There is no scheduler at '{where}' ({error}). Start one: dask scheduler.") from None
+    with client:
+        threads = sum(client.nthreads().values())
+        if not threads:
+            raise ContactError(f"The scheduler at '{where}' has no workers. Start some: dask worker HOST:PORT.")
+        yield client.get_executor(pure=False), threads
+
+
+def done_by(
+    given: tuple[Executor | None, int], task: Callable[..., Result], arguments: Iterator[tuple[Any, ...]]
+) -> Iterator[Result]:
+    """Yield the results of a task as they come; more are asked for as long as results are taken."""
+    executor, count = given
+    if executor is None:
+        for each in arguments:
+            yield task(*each)
+        return
+    asked: set[Future[Result]] = set()
+    while True:
+        asked.update(executor.submit(task, *each) for each in islice(arguments, _AHEAD * count - len(asked)))
+        if not asked:
+            return
+        finished, asked = wait(asked, return_when=FIRST_COMPLETED)
+        for future in finished:
+            yield future.result()
