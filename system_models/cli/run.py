@@ -10,6 +10,7 @@ from ..machines import files
 from . import contact, machine
 from .scenes import add_scene
 
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     add_scene(parser, "scene or machine")

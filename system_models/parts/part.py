@@ -49,6 +49,7 @@ class Part(ABC):
 
     name: ClassVar[str]  # of the FMU's model, such as "Shaft"
     text: ClassVar[str]  # one line for its description
+    in_c: ClassVar[bool] = True  # its equations can be written in C, see `native`
 
     starts: tuple[Start, ...] = field(default=(), kw_only=True)
 

@@ -84,6 +84,7 @@ class BallBearing(Part):
     """
 
     name: ClassVar[str] = "BallBearing"
+    in_c: ClassVar[bool] = False  # its equilibrium moves arrays in place
     text: ClassVar[str] = "Ball bearing: load distribution, motion of its contacts by classes, their torque and heat"
 
     dimensions: BallBearingGeometry
