@@ -1,7 +1,6 @@
 """Writes model.c: what the C sources of a native FMU know of their scene's variables."""
 
 import math
-import re
 import sys
 from collections.abc import Iterable, Sequence
 
@@ -10,6 +9,7 @@ from contact_core.state import RangeFlag
 from ..runtime.guarded import LOG_CATEGORIES
 from ..runtime.slave import OF_SOLVER
 from ..variables import FIDELITY, Variable
+from .names import c_name
 
 _KINDS = {"Real": "REAL", "Integer": "INTEGER", "Boolean": "BOOLEAN", "String": "STRING"}
 _CATEGORIES = {  # members of Category in model.h, in their order
@@ -93,11 +93,6 @@ def model_c(table: Sequence[Variable], token: str, *, ranges: bool = True) -> st
         ),
         categories=",\n".join(f"    [{place}] = {c_text(_known(name))}" for place, name in _CATEGORIES.items()),
     )
-
-
-def c_name(name: str) -> str:
-    """Return the name of a variable in C: load_1 of load[1]."""
-    return re.sub(r"\W+", "_", name).strip("_")
 
 
 def _place(output: str, table: Sequence[Variable]) -> str:

@@ -25,7 +25,7 @@ from contact_core.state import ContactState, Mean, Outputs, changed
 from contact_core.surfaces.track_means import means_of
 
 from ..variables import Variable, variables
-from .model import c_name
+from .names import c_name
 from .translate import Entry, Num, Translator, literal
 
 Found = tuple[ContactState, Outputs]
@@ -299,6 +299,8 @@ def source(texts: Sequence[str]) -> str:
 
 
 def struct(name: str, members: Sequence[str], about: dict[str, Variable]) -> list[str]:
+    """Return a struct of doubles, with a comment of what is known of each."""
+
     def line(member: str) -> str:
         if member not in about:
             return f"    double {member};"

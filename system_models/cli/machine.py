@@ -59,7 +59,8 @@ def _run_in(folder: Path, assembly: "Assembly", kind: str, arguments: argparse.N
 
     from .simulation import carry_out
 
-    unchecked, flavour = arguments.unchecked, arguments.flavour or "embedded"
+    unchecked: bool = arguments.unchecked
+    flavour: Flavour = arguments.flavour or "embedded"
     settings = {**assembly.settings, "outputs": assembly.outputs()}
     attributes = {"title": assembly.description, "checks": "left out" if unchecked else "error_coupling, resolved.nc"}
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as files:

@@ -122,7 +122,6 @@ def _possible(name: str, part: Part, flavour: Flavour) -> Flavour:
     """Return the flavour, or isolated where the component has none in C."""
     if flavour != "native" or part.in_c:
         return flavour
-    _log.warning(
-        "The component '%s', a %s, has no native FMU so far: it is isolated, with Python inside.", name, part.name
-    )
+    sentence = "The component '%s', a %s, has no native FMU so far: it is isolated, with Python inside."
+    _log.warning(sentence, name, part.name)
     return "isolated"

@@ -29,8 +29,8 @@ def build(
     """Write the FMU of a component to `out` and return it. The same arguments and versions give the same bytes.
 
     `flavour` and `python`: as for a contact, see `fmu_src.package.build`. `duration` and `step_size` [s] are
-    proposals to its host; `here`: a native FMU for this platform only. Raises SceneError if the component's numbers cannot
-    be used or it has no C, OSError if the file cannot be written or there is no compiler.
+    proposals to its host; `here`: a native FMU for this platform only. Raises SceneError if the component's numbers
+    cannot be used or it has no C, OSError if the file cannot be written or there is no compiler.
     """
     resources.check(part)
     experiment = {"startTime": 0.0, "stopTime": duration, "stepSize": step_size}

@@ -28,7 +28,7 @@ def _propagators(matrix: Matrix, entry: Matrix, step: float) -> tuple[Array, Arr
 
     Van Loan, C.F., IEEE Trans. Autom. Control 23 (1978) 395, doi 10.1109/TAC.1978.1101743
     """
-    size, width = len(matrix), len(entry[0])
+    size = len(matrix)
     found = exponential(_block(matrix, entry) * step)
     return found[:size, :size], found[:size, size:]
 

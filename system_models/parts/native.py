@@ -5,7 +5,8 @@ from typing import Any
 from contact_core.errors import SceneError
 from fmu_src.flavours import Version
 from fmu_src.native import build as native
-from fmu_src.native.model import c_name, model_c
+from fmu_src.native.model import model_c
+from fmu_src.native.names import c_name
 from fmu_src.native.program import calling, header, source, translated
 from fmu_src.native.tables import tables_h
 from fmu_src.native.translate import Num, Untranslatable

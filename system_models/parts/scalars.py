@@ -95,7 +95,7 @@ def _piece(
     inputs: Values,
     left: float,
     changes: int,
-) -> tuple[float, Regimes, Numbers, Numbers]:
+) -> tuple[float, Regimes, list[float], list[float]]:
     """Return the time [s] until a thermostat leaves its regime, at most `left`, and what holds from then on."""
     known = _possible(network)
     for each in known[:-1]:
@@ -112,7 +112,7 @@ def _in_regimes(
     inputs: Values,
     left: float,
     changes: int,
-) -> tuple[float, Regimes, Numbers, Numbers]:
+) -> tuple[float, Regimes, list[float], list[float]]:
     modes, ambient, heat = (
         thermal._modes(network, regimes),
         inputs["temperature_ambient"],

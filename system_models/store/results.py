@@ -1,8 +1,9 @@
 """Results as an xarray Dataset along `time` [s], as a netCDF file and as a CSV file."""
 
 import csv
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -34,7 +35,7 @@ def with_half_widths(dataset: xr.Dataset) -> xr.Dataset:
     That of `h_c` is `h_c_error`, that of `mesh.h_c` is `mesh.h_c_error`; the attribute `ancillary_variables` of the
     output names it (CF conventions, 3.4).
     """
-    halves: dict[str, tuple[Hashable, ...]] = {}  # assigned at once: xarray copies all variables each time
+    halves: dict[str, tuple[Any, ...]] = {}  # assigned at once: xarray copies all variables each time
     for name in dataset.data_vars:
         variable = dataset.variables[name]
         prefix, output = str(name).rpartition(".")[::2]

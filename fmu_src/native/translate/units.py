@@ -14,7 +14,10 @@ Leaf = Callable[[str, Any, Any], Any]
 
 _WHOLE = re.compile(r"[A-Za-z_]\w*(\.\w+)?|-?[\d.]+(e[-+]?\d+)?|-?INFINITY|NAN")
 _TAKEN = set(
-    ["double", "int", "long", "short", "float", "const", "if", "else", "for", "while", "return", "struct", "auto", "register", "signed", "static", "switch", "volatile", "goto", "default", "case", "char", "do", "enum", "extern", "sizeof", "typedef", "union", "unsigned", "void", "inline", "restrict", "why", "exp", "log", "pow", "sqrt", "fabs", "floor", "ceil", "round", "gamma", "time", "index", "j0", "j1", "y0", "y1", "jn", "yn", "tanh", "sinh", "remainder", "signal", "squared", "smaller", "larger"]
+    "double int long short float const if else for while return struct auto register signed static switch volatile "
+    "goto default case char do enum extern sizeof typedef union unsigned void inline restrict why "
+    "exp log pow sqrt fabs floor ceil round gamma time index j0 j1 y0 y1 jn yn tanh sinh remainder signal squared "
+    "smaller larger".split()
 )
 
 
