@@ -49,8 +49,9 @@ def _written(part: Part) -> dict[str, str]:
     inputs: dict[str, Any] = {q.name: Num(names[q.name]) for q in part.inputs}
     count = len(part.initial(start_values(part)))
     state: Any = tuple(Num(f"held_{k}") for k in range(count))
-    begun, first_texts = translated("first", first, [part, inputs], INSTEAD)
-    stepped, step_texts = translated("step", step, [part, state, inputs, Num("dt")], INSTEAD)
+    instead = {**INSTEAD, **part.instead()}
+    begun, first_texts = translated("first", first, [part, inputs], instead)
+    stepped, step_texts = translated("step", step, [part, state, inputs, Num("dt")], instead)
     known = [number.text for number in inputs.values()]
 
     def calls(head: str, entry: Any) -> str:

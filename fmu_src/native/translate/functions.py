@@ -564,7 +564,7 @@ def _assigned(body: list[ast.stmt]) -> list[str]:
     found: dict[str, None] = {}
     for statement in body:
         for node in ast.walk(statement):
-            if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store) and node.id != "_":
                 found[node.id] = None
     return list(found)
 

@@ -188,6 +188,10 @@ _NAMED: dict[str, tuple[Handler, ...]] = {
     "own_tanh": (math.tanh, np.tanh, elementary.tanh),
     "own_asinh": (math.asinh, np.arcsinh),
     "own_hypot": (math.hypot, np.hypot),
+    "cos": (math.cos, np.cos),
+    "sin": (math.sin, np.sin),
+    "atan2": (math.atan2, np.arctan2),
+    "cbrt": (np.cbrt,),
     "fabs": (abs, np.abs, np.fabs),
 }
 
@@ -237,7 +241,10 @@ ALWAYS = {builtins.zip, builtins.enumerate, np.zeros_like, np.ones_like, np.full
 def _along(function: Handler) -> Handler:
     """Return a function of the items of an array: of all, or with axis = -1 of those along the last axis."""
 
-    def reduced(array: Any, axis: int | None = None) -> Any:
+    def reduced(array: Any, axis: int | None = None, where: Any = True, initial: Any = None) -> Any:
+        if initial is not None:
+            array = _where(where, array, initial)
+            return function([initial, *array.flat])
         if axis is None:
             return function(list(array.flat))
         if axis != -1:
