@@ -18,6 +18,7 @@ from .units import Poison, Unit, matched, template_of, unified, unique
 from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
 
 _MOST_ROUNDS = 1000  # of a loop whose end is known at run time only: the time of a step is bounded
+_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 _ELEMENTWISE = "contact_core.laws"  # laws say of each element of an array what they say of a number
 _UNREAD = "unread"  # stands for a number that nothing reads in the end
 _TOO_LONG = f"The step changes the surfaces so much that it needs more than {_MOST_ROUNDS} parts. Take shorter steps."
@@ -136,7 +137,7 @@ class Translator:
         needed, kept = {entry.name for entry in entries}, []
         for name, text in reversed(self.functions):
             if name in needed:
-                needed |= code.names_in(text)
+                needed |= code.names_in(_COMMENT.sub("", text))
                 kept.append(text)
         return kept[::-1]
 
