@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
@@ -17,8 +16,6 @@ from fmu_src.variables import FIDELITY
 from ..master import System
 from ..parts.build import build as build_part
 from ..parts.part import Part
-
-_log = logging.getLogger(__name__)
 
 Value = float | int | bool | str
 Schedule = dict[str, Sequence[tuple[float, Value]]]  # by "part.variable": times [s] and values
@@ -91,13 +88,12 @@ class Assembly:
     ) -> System:
         """Build the FMUs into a folder and couple them; contacts of one scene share a file.
 
-        `contacts`: their flavour, if not that of the components. Of native systems, components that have no C are
-        isolated, and said so in the log. `here`: native FMUs for this platform only. Raises ContactError for parts that
-        do not fit together, and for a contact that the flavour cannot have.
+        `contacts`: their flavour, if not that of the components. `here`: native FMUs for this platform only. Raises
+        ContactError for parts that do not fit together, and for a contact that the flavour cannot have.
         """
         proposed = {"duration": self.settings["stop_time"], "step_size": self.settings["step_size"]}
         files = {
-            name: build_part(part, folder / f"{name}.fmu", _possible(name, part, flavour), here=here, **proposed)
+            name: build_part(part, folder / f"{name}.fmu", flavour, here=here, **proposed)
             for name, part in self.parts.items()
         }
         contacts = contacts or flavour
@@ -116,12 +112,3 @@ class Assembly:
         """Return the connected inputs of a contact."""
         targets = (target.partition(".") for _, target, *_ in self.connections)
         return [variable for owner, _, variable in targets if owner == contact]
-
-
-def _possible(name: str, part: Part, flavour: Flavour) -> Flavour:
-    """Return the flavour, or isolated where the component has none in C."""
-    if flavour != "native" or part.in_c:
-        return flavour
-    sentence = "The component '%s', a %s, has no native FMU so far: it is isolated, with Python inside."
-    _log.warning(sentence, name, part.name)
-    return "isolated"

@@ -12,7 +12,7 @@ import numpy as np
 from . import equilibrium, load_classes, part
 from .equilibrium import Equilibrium, RingLoads
 from .geometry import BallBearingGeometry, Race
-from .kernels import _between, _is_far_enough, _seat_ball, cage, groove_centre, pull, rolling
+from .kernels import _between, _is_far_enough, _seat_ball, groove_centre, pull, rolling
 
 Row = Any  # a tuple of numbers
 Rows = Any  # a tuple of such tuples
@@ -79,9 +79,7 @@ def settle(
         pressed = tuple([(square * x, square * r) for x, r in inertia])
         largest = max(_largest(forces), _largest([x for pair in pressed for x in pair]), 1.0)
         ring, balls, left = seat_ring(geometry, ring, balls, pressed, azimuths, forces, centring, 1e-10 * largest)
-        found = tuple(
-            [_motion(geometry, ring, ball, azimuth) for ball, azimuth in zip(balls, azimuths, strict=True)]
-        )
+        found = tuple([_motion(geometry, ring, ball, azimuth) for ball, azimuth in zip(balls, azimuths, strict=True)])
         orbit = _cage(found, fixed.idle)
         wanted = [_wanted(geometry, each[3], orbit) for each in found]
         changes = [square * math.hypot(w[0] - i[0], w[1] - i[1]) for w, i in zip(wanted, inertia, strict=True)]
@@ -173,8 +171,7 @@ def _at_ring(
 ) -> tuple[Row, Rows, Rows]:
     """Return slope and curvature of the energy, and the balls at rest, as `kernels._at_ring`."""
     seats = [
-        _at_azimuth(geometry, ring, ball, b, azimuth)
-        for ball, b, azimuth in zip(balls, pressed, azimuths, strict=True)
+        _at_azimuth(geometry, ring, ball, b, azimuth) for ball, b, azimuth in zip(balls, pressed, azimuths, strict=True)
     ]
     slope = tuple([centring[i] * ring[i] - forces[i] + sum([seat[1][i] for seat in seats]) for i in _AXES])
     curvature = tuple(
@@ -206,9 +203,7 @@ def _at_azimuth(
     return (x, r), slope, tuple(rows)
 
 
-def _series(
-    ixx: float, ixr: float, irr: float, oxx: float, oxr: float, orr: float
-) -> tuple[float, float, float]:
+def _series(ixx: float, ixr: float, irr: float, oxx: float, oxr: float, orr: float) -> tuple[float, float, float]:
     """Return the stiffness of both springs in series, inner (inner + outer)^-1 outer."""
     hxx, hxr, hrr = ixx + oxx, ixr + oxr, irr + orr
     if hxx + hrr == 0.0:
