@@ -45,7 +45,8 @@ def advance(
         return _stepped(case, state, dt, contact_of)
     if dt == 0.0:
         return _stepped(case.warmed(state.temperatures), state, dt, contact_of)
-    before, left = [state.outputs.wear_volume_1, state.outputs.wear_volume_2], dt
+    outputs, left = state.outputs, dt
+    before = outputs.wear_volume_1, outputs.wear_volume_2
     while left > 0.0:
         now, step = case.warmed(state.temperatures), left
         after, outputs = _stepped(now, state, step, contact_of)

@@ -35,8 +35,8 @@ def smooth_film(case: Case, further: float) -> SmoothFilm:
     speed = abs(entrainment)
     oil, warm = _oil(scene.lubricant.viscosity, inlet)
     largest, modulus, supply = hertz.pressure_max, scene.solids.reduced_modulus, scene.lubricant.supply
-    thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
-    starves = supply.starves
+    sheared = scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local"
+    thins, starves = sheared and speed > 0.0, supply.starves
 
     def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
         newtonian = shape.film(max(load, LIGHTEST), max(speed, SLOWEST), *oil, modulus)
@@ -58,20 +58,20 @@ def smooth_film(case: Case, further: float) -> SmoothFilm:
         by_speed / math.copysign(STEP * max(speed, SLOWEST), entrainment),
         by_load / (STEP * load),
         by_temperature / KELVIN,
-        _rolling(case, oil, now, thins or starves),
+        _rolling(case, oil, now if sheared or starves else None),
     )
 
 
-def _rolling(case: Case, oil: tuple[float, float], film: float, falls: bool) -> float:
+def _rolling(case: Case, oil: tuple[float, float], film: float | None) -> float:
     """Return the rolling resistance [N] of the smooth bodies.
 
-    falls: the force is taken to fall as the film [m] falls below that of flooded, cold oil.
+    The force is taken to fall as the film [m] falls below that of flooded, cold oil; None: it does not.
     """
     speed = case.op.entrainment_speed
     if abs(speed) < SLOWEST:
         return 0.0
     shape, modulus, load = case.shape, case.scene.solids.reduced_modulus, max(case.op.load, LIGHTEST)
-    left = film / shape.film(load, abs(speed), *oil, modulus) if falls else 1.0
+    left = 1.0 if film is None else film / shape.film(load, abs(speed), *oil, modulus)
     return math.copysign(left * shape.rolling(load, abs(speed), oil[0], modulus), speed)
 
 

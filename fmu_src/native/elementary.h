@@ -46,7 +46,7 @@ static inline double exp_parts(double high, double low, double *added)
 static inline double exp_of(double high, double low)
 {
     if (!(fabs(high) < 708.0)) {
-        if (high > 709.7) {
+        if (high > 709.782712893384) {
             return INFINITY;
         }
         if (high > -746.0) { /* near the largest number, or below the smallest normal one */
@@ -174,6 +174,9 @@ static inline double own_hypot(double x, double y)
     const double large = larger(fabs(x), fabs(y)), small = smaller(fabs(x), fabs(y));
     if (large == 0.0 || large > 0x1.fffffffffffffp+1023) {
         return large;
+    }
+    if (y != y) {
+        return y;
     }
     const double ratio = small / large;
     return large * sqrt(1.0 + ratio * ratio);

@@ -12,10 +12,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from contact_core import initial_state
-from contact_core.errors import OperatingPointError
-from contact_core.film import Mapped
-from contact_core.mapped.map import map_of
-from contact_core.mapped.query import corrected
+from contact_core.errors import OperatingPointError, SceneError
+from contact_core.film import Regression
 from contact_core.quantities import OF_CALLER, OF_CORE
 from contact_core.regression import evolution
 from contact_core.regression.contact import MeanContact, evaluate
@@ -26,17 +24,15 @@ from contact_core.surfaces.track_means import means_of
 
 from ..variables import Variable, variables
 from .names import c_name
-from .translate import Entry, Num, Translator, literal
+from .translate import Entry, Num, Translator, Untranslatable, is_number, literal, parts
 
 Found = tuple[ContactState, Outputs]
-
-# what a contact of every scene has, in the order of `OperatingPoint`; others where a scene asks for them
-_ALWAYS = ("load", "speed_1", "speed_2", "temperature")
 
 
 def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
     """Return a scene at an operating point. Raises OperatingPointError where it cannot be used."""
-    case = Case.at(scene, point, state.temperatures)
+    _check_radii(scene, point)
+    case = Case.at(scene, _with_own_radii(scene, point), state.temperatures)
     law, bulk, inlet = scene.tribofilm, scene.heat.bulk, scene.lubricant.supply.inlet
     for temperature in point.bodies if bulk.from_inputs else (point.temperature,):
         if law.refusal(_COLD) and not law.covers(temperature):
@@ -55,35 +51,63 @@ def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
     return case
 
 
-_COLD = 0.0  # K: no law covers it
+_COLD = 0.0  # K: no law covers it; as the temperature of a body: none yet
+_SAME_RADIUS = 1e-9  # relative: a host may convert units
+
+
+def _check_radii(scene: Scene, point: OperatingPoint) -> None:
+    """Raise OperatingPointError if a point contact has other radii than the scene.
+
+    The elliptic integrals of its shape are computed when the FMU is built.
+    """
+    for name, radius in _own_radii(scene).items():
+        given = getattr(point, name)
+        if given is not None and abs(given - radius) > _SAME_RADIUS * radius:
+            raise OperatingPointError(
+                f"{name} = {given:g} m: this FMU holds Hertz's contact of {name} = {radius:g} m. Keep that, or build "
+                f"the FMU anew with geometry.{name} set."
+            )
+
+
+def _own_radii(scene: Scene) -> dict[str, float]:
+    """Return the radii that the FMU of a scene holds: those of a point."""
+    names = () if "radius_y" in scene.geometry.lacks else ("radius_x", "radius_y")
+    return {name: getattr(scene.operation, name) or getattr(scene.geometry, name) for name in names}
+
+
+def _with_own_radii(scene: Scene, point: OperatingPoint) -> OperatingPoint:
+    """Return an operating point with those radii as constants; None where they are those of the geometry."""
+    own = {name: getattr(scene.operation, name) and radius for name, radius in _own_radii(scene).items()}
+    return dataclasses.replace(point, **own)
 
 
 def step(scene: Scene, point: OperatingPoint, state: ContactState, dt: float) -> Found:
     """Return the state and the outputs after a step of `dt` [s]."""
-    return evolution.advance(bound(scene, point, state), state, dt, _contacts(scene, derivatives=False))
+    begun = _begun(point, state)
+    after, outputs = evolution.advance(bound(scene, point, begun), begun, dt, _contact)
+    if scene.heat.bulk.stores_heat and dt == 0.0:  # bodies begin at the temperature of the oil of the first step
+        after = changed(after, temperatures=state.temperatures)
+    return after, outputs
 
 
 def derivatives(scene: Scene, point: OperatingPoint, state: ContactState) -> tuple[float, float, float, float]:
     """Return the derivatives of friction_force by speed_1, speed_2, load and temperature."""
-    case = bound(scene, point, state).warmed(state.temperatures)
+    begun = _begun(point, state)
+    case = bound(scene, point, begun).warmed(begun.temperatures)
     assert state.means is not None
-    return _contacts(scene, derivatives=True)(case, tribofilms_of(state.means)).derivatives
+    return evaluate(case, tribofilms_of(state.means)).derivatives
 
 
-def _contacts(scene: Scene, *, derivatives: bool) -> evolution.ContactOf:
-    """Return the function that evaluates contacts, with the map of the scene if it has one."""
-    if not isinstance(scene.film, Mapped):
+def _begun(point: OperatingPoint, state: ContactState) -> ContactState:
+    """Return a state whose bodies have temperatures: where none are stored yet, that of the oil."""
+    if state.temperatures is None:
+        return state
+    one, two = (stored if stored > _COLD else point.temperature for stored in state.temperatures)
+    return changed(state, temperatures=(one, two))
 
-        def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-            return evaluate(case, tribofilms, derivatives)
 
-        return contact_of
-    chart = map_of(scene)
-
-    def mapped_contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-        return corrected(chart, case, evaluate(case, tribofilms, derivatives))
-
-    return mapped_contact_of
+def _contact(case: Case, tribofilms: Tribofilms) -> MeanContact:
+    return evaluate(case, tribofilms, derivatives=False)
 
 
 def first_state(scene: Scene) -> ContactState:
@@ -93,7 +117,7 @@ def first_state(scene: Scene) -> ContactState:
 
 
 def inputs_of(scene: Scene) -> tuple[str, ...]:
-    """Return the names of the inputs that change anything."""
+    """Return the names of the inputs."""
     return tuple(v.name for v in variables(scene) if v.causality == "input")
 
 
@@ -104,14 +128,8 @@ def _point(scene: Scene) -> OperatingPoint:
 
 def _point_names(scene: Scene) -> list[str]:
     """Return the inputs that the equations look at."""
-    used = set(_ALWAYS)
-    if scene.heat.bulk.from_inputs:
-        used |= {"body_temperature_1", "body_temperature_2"}
-    if "radius_y" in scene.geometry.lacks:  # of ellipses the integrals are computed when the FMU is built
-        used |= {"radius_x"}
-    if scene.geometry.lacks.isdisjoint({"spin"}) and scene.operation.spin != 0.0:
-        used |= {"spin"}
-    return [name for name in inputs_of(scene) if name in used]
+    unused = () if scene.heat.bulk.from_inputs else ("body_temperature_1", "body_temperature_2")
+    return [name for name in inputs_of(scene) if name not in unused]
 
 
 def _state(scene: Scene) -> ContactState:
@@ -126,8 +144,6 @@ def _state(scene: Scene) -> ContactState:
 
 def paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
     """Yield the numbers of state and outputs with the way to them."""
-    from .translate.values import is_number, parts
-
     if is_number(value):
         yield path, value
     else:
@@ -144,8 +160,8 @@ def written(scene: Scene) -> dict[str, str]:
     Contacts that differ in track lengths only, such as the stations of a gear mesh, have all files but tracks.c alike.
     Raises SceneError for a scene that the native FMU cannot have.
     """
-    geometry = scene.geometry
-    key = _key(scene)
+    _check(scene)
+    geometry, key = scene.geometry, _key(scene)
     if key not in _written:
         _written[key] = _equations(scene)
     return {**_written[key], "tracks.c": _tracks(geometry.track_length_1, geometry.track_length_2)}
@@ -160,7 +176,8 @@ def _key(scene: Scene) -> str:
     for name in TRACKS:
         table["geometry"].pop(name)
     for name in _point_names(scene):
-        table["operation"].pop(name, None)
+        if name not in _own_radii(scene):
+            table["operation"].pop(name, None)
     return json.dumps(table, sort_keys=True)
 
 
@@ -182,8 +199,14 @@ def _at_run_time(scene: Scene) -> Scene:
 
 def _equations(scene: Scene) -> dict[str, str]:
     point, state, loose = _point(scene), _state(scene), _at_run_time(scene)
-    stepped, step_texts = translated("step", step, [loose, point, state, Num("dt")])
-    slopes, slope_texts = translated("derivatives", derivatives, [loose, point, state])
+    try:
+        stepped, step_texts = translated(step, [loose, point, state, Num("dt")])
+        slopes, slope_texts = translated(derivatives, [loose, point, state])
+    except Untranslatable as error:
+        raise SceneError(
+            f"The equations of '{scene.name}' cannot be written as C: {error}\ndocs/how-to/native_fmu.md says what "
+            "can. Write that line so, or build with --flavour isolated."
+        ) from error
     outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
     new_state, new_outputs = stepped.result
     after, first = dict(paths(new_state)), dict(paths(first_state(scene)))
@@ -215,25 +238,42 @@ def _equations(scene: Scene) -> dict[str, str]:
             variables(scene),
             [number.text for _, number in held],
             outputs,
-            [
-                "/* Travel of a point of a body between two passes [m]. */",
-                f"extern const double {', '.join(TRACKS.values())};",
-                "",
-            ],
+            _OF_TRACKS,
         ),
         "contact.c": source([*step_texts, "\n".join(stepping)]),
         "slopes.c": source([*slope_texts, "\n".join(sloping)]),
     }
 
 
+def _check(scene: Scene) -> None:
+    """Raise SceneError for a scene that no native FMU can have."""
+    if not isinstance(scene.film, Regression):
+        raise SceneError(
+            f"film.model = '{scene.film.name}' solves contacts, and a native FMU has no solver. Set film.model = "
+            "'regression', or build with --flavour isolated."
+        )
+    if scene.stress.samples:
+        raise SceneError(
+            f"stress.model = '{scene.stress.name}' has stresses by depth and place, and a native FMU has numbers only. "
+            "Set stress.model = 'none' and fatigue.model = 'none', or build with --flavour isolated."
+        )
+
+
+_OF_TRACKS = (
+    "/* Travel of a point of a body between two passes [m]. */",
+    f"extern const double {', '.join(TRACKS.values())};",
+    "",
+)
+
+
 def translated(
-    name: str, function: Any, operands: list[Any], instead: Mapping[Any, Any] | None = None
+    function: Any, operands: list[Any], instead: Mapping[Any, Any] | None = None
 ) -> tuple[Entry, list[str]]:
     """Return a function to be called from C, and it and all that it needs as C."""
     reads: dict[str, set[str]] = {}
     while True:  # members of results that nothing reads are left out, and then what was computed for them
         translator = Translator(reads, instead)
-        entry = translator.program(name, function, operands)
+        entry = translator.program(function, operands)
         texts = translator.texts([entry])
         found = reads | translator.wanted(texts, [entry])
         if found == reads:
@@ -245,12 +285,11 @@ SLOPES = ("dfriction_dspeed_1", "dfriction_dspeed_2", "dfriction_dload", "dfrict
 
 
 def _initialise(values: Sequence[tuple[str, Any]]) -> list[str]:
-    oil = "in->temperature"
     return [
         "int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out,",
         "    contact_message *why)",
         "{",
-        *(f"    state->{name} = {oil if value is None else literal(value).text};" for name, value in values),
+        *(f"    state->{name} = {literal(_COLD if value is None else value).text};" for name, value in values),
         "    return contact_step(in, 0.0, state, out, why);",
         "}",
     ]

@@ -50,8 +50,8 @@ def _written(part: Part) -> dict[str, str]:
     count = len(part.initial(start_values(part)))
     state: Any = tuple(Num(f"held_{k}") for k in range(count))
     instead = {**INSTEAD, **part.instead()}
-    begun, first_texts = translated("first", first, [part, inputs], instead)
-    stepped, step_texts = translated("step", step, [part, state, inputs, Num("dt")], instead)
+    begun, first_texts = translated(first, [part, inputs], instead)
+    stepped, step_texts = translated(step, [part, state, inputs, Num("dt")], instead)
     known = [number.text for number in inputs.values()]
 
     def calls(head: str, entry: Any) -> str:

@@ -1,14 +1,19 @@
 """From the Python of the regression level to C99, with everything known of one scene put in.
 
-    values        numbers that are known at run time only, as C expressions
-    code          C statements, pruned and printed
-    units         C functions under construction, values from several branches
-    library       what functions of Python, math and numpy are in C
-    interpreter   statements and expressions
-    functions     calls, loops, C functions
+values        numbers that are known at run time only, as C expressions
+code          C statements, pruned and printed
+units         C functions under construction, values from several branches
+sources       functions of Python: trees, names, texts
+library       what functions of Python, math and numpy are in C
+expressions   expressions of Python
+loops         loops that stay loops
+results       what C functions return
+arrays        what a law gives for each element of an array
+interpreter   statements of Python
+functions     calls, and C functions: one for each way in which a Python function is used
 """
 
 from .functions import Entry, Translator
-from .values import Num, Untranslatable, leaves, literal, replaced
+from .values import Num, Untranslatable, is_number, leaves, literal, parts, replaced
 
-__all__ = ["Entry", "Num", "Translator", "Untranslatable", "leaves", "literal", "replaced"]
+__all__ = ["Entry", "Num", "Translator", "Untranslatable", "is_number", "leaves", "literal", "parts", "replaced"]

@@ -1,10 +1,13 @@
 """C statements: what is never used is left out, and the rest printed."""
 
 import re
+import textwrap
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
 _NAMES = re.compile(r'"(?:[^"\\]|\\.)*"|(?<![\w.])([A-Za-z_]\w*)')  # outside quotation marks, and no members
+_USES = re.compile(r"\b(?<=struct )\w+|(?<![\w.])\w+(?=\()")  # of functions and structs
 _CTYPES = {"d": "double", "i": "int", "b": "int"}
 _WIDTH = 116
 
@@ -55,7 +58,20 @@ class Do:
     text: str
 
 
-Statement: TypeAlias = Let | Put | If | Loop | Do
+@dataclass
+class Give:
+    """The end of a function that returns a struct."""
+
+    struct: str
+    members: list[tuple[str, str]]
+
+    @property
+    def text(self) -> str:
+        """The statement in one line."""
+        return f"return (struct {self.struct}){{{', '.join(f'.{name} = {value}' for name, value in self.members)}}};"
+
+
+Statement: TypeAlias = Let | Put | If | Loop | Do | Give
 Block: TypeAlias = list[Statement]
 
 
@@ -72,7 +88,7 @@ def used(block: Block) -> set[str]:
             found |= names_in(statement.test) | used(statement.then) | used(statement.otherwise)
         elif isinstance(statement, Loop):
             found |= names_in(statement.head) | used(statement.body)
-        elif isinstance(statement, Do):
+        elif isinstance(statement, Do | Give):
             found |= names_in(statement.text)
         else:
             found |= names_in(statement.value)
@@ -129,10 +145,50 @@ def printed(block: Block, depth: int = 1) -> list[str]:
         elif isinstance(statement, If):
             lines += _choice(statement, depth)
         elif isinstance(statement, Loop):
-            lines += [*_wrapped(f"{statement.head} {{", depth), *printed(statement.body, depth + 1), "    " * depth + "}"]
+            lines += [
+                *_wrapped(f"{statement.head} {{", depth),
+                *printed(statement.body, depth + 1),
+                "    " * depth + "}",
+            ]
+        elif isinstance(statement, Give):
+            lines += _given(statement, depth)
         else:
             lines += _wrapped(statement.text, depth)
     return lines
+
+
+def quoted(text: str) -> str:
+    """Return a text as C, in pieces that fit in a line."""
+    pieces = textwrap.wrap(text, _WIDTH - 30, drop_whitespace=False, break_on_hyphens=False) or [""]
+    return " ".join('"' + piece.replace("\\", "\\\\").replace('"', '\\"') + '"' for piece in pieces)
+
+
+def comment(lines: Sequence[str]) -> list[str]:
+    """Return lines as a comment."""
+    cut = [part for line in lines for part in textwrap.wrap(line, _WIDTH - 6, break_on_hyphens=False)]
+    return [f"{'   ' if i else '/* '}{line}{' */' if i == len(cut) - 1 else ''}" for i, line in enumerate(cut)]
+
+
+def head(result: str, name: str, parameters: Sequence[str]) -> list[str]:
+    """Return the first lines of a function."""
+    lines = [f"static {result} {name}("]
+    for i, parameter in enumerate(parameters or ["void"]):
+        text = parameter + (")" if i >= len(parameters) - 1 else ",")
+        if len(lines[-1]) + len(text) + 1 > _WIDTH:
+            lines.append("    " + text)
+        else:
+            lines[-1] += text if lines[-1].endswith("(") else f" {text}"
+    return lines
+
+
+def _given(statement: Give, depth: int) -> list[str]:
+    indent = "    " * depth
+    if len(indent + statement.text) <= _WIDTH:
+        return [indent + statement.text]
+    lines = [f"{indent}return (struct {statement.struct}){{"]
+    for name, value in statement.members:
+        lines += _wrapped(f".{name} = {value},", depth + 1)
+    return [*lines, indent + "};"]
 
 
 def _choice(choice: If, depth: int) -> list[str]:
@@ -156,3 +212,22 @@ def _wrapped(text: str, depth: int) -> list[str]:
             longer = indent + "    " + word
         line = longer
     return [*lines, line]
+
+
+def merged(functions: Sequence[tuple[str, str]]) -> list[str]:
+    """Return functions and their structs without those that others equal but for the name; both are given by name."""
+    whole: dict[str, str] = {}
+    for name, text in functions:
+        whole[name] = f"{whole[name]}\n\n{text}" if name in whole else text
+    first: dict[str, str] = {}  # names by texts
+    names: dict[str, str] = {}  # of functions that are left out, those of their equals
+    for name, text in whole.items():
+        own = _renamed(text, names)
+        names[name] = first.setdefault(_renamed(own, {name: "it"}), name)
+        whole[name] = own
+    return [text for name, text in whole.items() if names[name] == name]
+
+
+def _renamed(text: str, names: dict[str, str]) -> str:
+    """Return a text with functions and structs by other names."""
+    return _USES.sub(lambda found: names.get(found[0], found[0]), text)

@@ -1,89 +1,56 @@
-"""An interpreter of Python that computes what is known and writes C for what is not.
-
-Statements and expressions of one scope; `functions` has the calls.
-"""
+"""Statements of Python, in one scope: an interpreter that computes what is known and writes C for what is not."""
 
 import ast
-import dataclasses
-import functools
-import inspect
-import operator
-import types
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import Any
 
 from . import code
-from .library import ALWAYS, ARRAY_METHODS, HANDLERS, chosen, elementwise
-from .units import Poison, Unit
-from .values import Closure, Method, Num, Untranslatable, both, compare, either, is_dynamic, is_number, literal
+from .expressions import Expressions
+from .loops import counted, repeated
+from .units import Poison, Text
+from .values import Num, Untranslatable
 
-if TYPE_CHECKING:
-    from .functions import Translator
-
-_OPERATORS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
-    ast.Add: operator.add,
-    ast.Sub: operator.sub,
-    ast.Mult: operator.mul,
-    ast.Div: operator.truediv,
-    ast.FloorDiv: operator.floordiv,
-    ast.Mod: operator.mod,
-    ast.Pow: operator.pow,
-    ast.BitOr: operator.or_,
-    ast.BitAnd: operator.and_,
-    ast.MatMult: operator.matmul,
-}
-_SIGNS: dict[type[ast.cmpop], tuple[str, Callable[[Any, Any], Any]]] = {
-    ast.Lt: ("<", operator.lt),
-    ast.LtE: ("<=", operator.le),
-    ast.Gt: (">", operator.gt),
-    ast.GtE: (">=", operator.ge),
-    ast.Eq: ("==", operator.eq),
-    ast.NotEq: ("!=", operator.ne),
-}
 _LONG = 16  # rounds from which on a loop over a range stays a loop
 
 
-def _is_test(value: Any) -> bool:
-    return isinstance(value, Num) and value.kind == "b"
+class Unrolled:
+    """A loop over a sequence: its body is written once for each item."""
+
+    def __init__(self, depth: int) -> None:
+        self.depth, self.left = depth, ""  # blocks around it; how the present round was left
 
 
-class Text:
-    """A message with numbers that are known at run time: a format of C and its operands."""
-
-    def __init__(self, form: str, operands: list[Num]) -> None:
-        self.form, self.operands = form, operands
-
-
-class Scope:
+class Scope(Expressions):
     """One scope of Python: its names, and the C function that its statements go to."""
-
-    def __init__(self, translator: "Translator", unit: Unit, names: dict[str, Any], closure: Closure) -> None:
-        self.translator, self.unit, self.names, self.closure = translator, unit, names, closure
 
     # statements: each returns True if the next one is reached
 
     def run(self, statements: list[ast.stmt]) -> bool:
         """Run statements; return True if what follows them is reached."""
         for statement in statements:
+            work = getattr(self, f"_do_{type(statement).__name__}", None)
             try:
-                goes_on = getattr(self, f"_do_{type(statement).__name__}")(statement)
+                if work is None or (getattr(statement, "orelse", None) and not isinstance(statement, ast.If)):
+                    raise Untranslatable(f"no {'else' if work else type(statement).__name__} here")
+                if not work(statement):
+                    return False
             except Untranslatable as error:
                 raise self._placed(error, statement) from error
-            except AttributeError as error:
-                if "_do_" in str(error):
-                    raise self._placed(f"no {type(statement).__name__} here", statement) from error
-                raise
-            if not goes_on:
-                return False
+            except (TypeError, ValueError, AttributeError, LookupError) as error:  # of Python with numbers it knows not
+                said = Untranslatable(f"{type(error).__name__}: {error}")
+                raise self._placed(said, statement) from error
         return True
 
-    def _placed(self, error: Exception | str, node: ast.stmt) -> Untranslatable:
-        """Return an error that says where."""
-        if isinstance(error, Untranslatable) and "\n" in str(error):
+    def refuse(self, message: str | Text) -> None:
+        """Leave the function with a message."""
+        text = message if isinstance(message, Text) else Text(message.replace("%", "%%"), [])
+        self.translator.refuses(self.unit, text)
+
+    def _placed(self, error: Untranslatable, node: ast.stmt) -> Untranslatable:
+        """Return an error that says where: in the innermost function and statement."""
+        if "\n" in str(error):
             return error
-        return Untranslatable(f"{error}\n  in {self.closure.path}: {ast.unparse(node).splitlines()[0]}")
+        line = ast.unparse(node).splitlines()[0]
+        return Untranslatable(f"{error}\n  in {self.closure.path}, line {node.lineno}: {line}")
 
     def _do_Expr(self, node: ast.Expr) -> bool:
         if not isinstance(node.value, ast.Constant):
@@ -93,44 +60,25 @@ class Scope:
     def _do_Pass(self, node: ast.Pass) -> bool:
         return True
 
-    _do_Assert = _do_Pass
+    def _do_Assert(self, node: ast.Assert) -> bool:
+        return True
 
     def _do_Assign(self, node: ast.Assign) -> bool:
         value = self.value(node.value)
         for target in node.targets:
-            self._bind(target, value)
+            self.bind(target, value)
         return True
 
     def _do_AnnAssign(self, node: ast.AnnAssign) -> bool:
         if node.value is not None:
-            self._bind(node.target, self.value(node.value))
+            self.bind(node.target, self.value(node.value))
         return True
 
     def _do_AugAssign(self, node: ast.AugAssign) -> bool:
         assert isinstance(node.target, ast.Name)
-        now = self._lookup(node.target.id)
-        self._bind(node.target, self._operated(node.op, now, self.value(node.value)))
+        now = self.lookup(node.target.id)
+        self.bind(node.target, self.operated(node.op, now, self.value(node.value)))
         return True
-
-    def _is_entry(self, target: ast.Subscript) -> bool:
-        return isinstance(self.value(target.value), dict) and not is_dynamic(self.value(target.slice))
-
-    def _bind(self, target: ast.expr, value: Any) -> None:
-        if isinstance(target, ast.Name):
-            self.names[target.id] = self.unit.named(target.id, value)
-        elif isinstance(target, ast.Tuple):
-            items = list(value)
-            starred = [i for i, each in enumerate(target.elts) if isinstance(each, ast.Starred)]
-            if starred:
-                at, rest = starred[0], len(target.elts) - starred[0] - 1
-                items = [*items[:at], items[at : len(items) - rest], *items[len(items) - rest :]]
-            for each, item in zip(target.elts, items, strict=True):
-                self._bind(each.value if isinstance(each, ast.Starred) else each, item)
-        elif isinstance(target, ast.Subscript) and isinstance(target.value, ast.Name) and self._is_entry(target):
-            owner, key = target.value.id, self.value(target.slice)
-            self.names[owner] = {**self._lookup(owner), key: self.unit.named(str(key), value)}
-        else:
-            raise Untranslatable(f"an assignment to {ast.unparse(target)}: bind a name instead")
 
     def _do_Return(self, node: ast.Return) -> bool:
         value = None if node.value is None else self.value(node.value)
@@ -139,20 +87,18 @@ class Scope:
 
     def _do_Raise(self, node: ast.Raise) -> bool:
         assert isinstance(node.exc, ast.Call)
-        message = self.value(node.exc.args[0])
-        text = message if isinstance(message, Text) else Text(str(message).replace("%", "%%"), [])
-        self.translator.refuses(self.unit, text)
+        self.refuse(self.value(node.exc.args[0]))
         return False
 
     def _do_FunctionDef(self, node: ast.FunctionDef) -> bool:
-        self.names[node.name] = self._closure(node, node.name)
+        self.names[node.name] = self.closed(node, node.name)
         return True
 
     def _do_With(self, node: ast.With) -> bool:
         return self.run(node.body)
 
     def _do_If(self, node: ast.If) -> bool:
-        test = self.truth(self.value(node.test))
+        test = self.test(node.test)
         if not isinstance(test, Num):
             return self.run(node.body if test else node.orelse)
         before = dict(self.names)
@@ -160,10 +106,10 @@ class Scope:
         after, self.names = self.names, dict(before)
         goes_on_else, otherwise = self.unit.branch(lambda: self.run(node.orelse))
         if goes_on and goes_on_else:
+            missing = Poison("it is bound in one branch alone: bind it before, too")
             self.names = {
-                name: self._joined(name, value, self.names[name], then, otherwise)
-                for name, value in after.items()
-                if name in self.names
+                name: self._joined(name, after.get(name, missing), self.names.get(name, missing), then, otherwise)
+                for name in after | self.names
             }
         elif goes_on:
             self.names = after
@@ -179,279 +125,38 @@ class Scope:
             return Poison(str(error))
 
     def _do_Break(self, node: ast.Break) -> bool:
-        self.unit.loops[-1](self, True)
-        self.unit.emit(code.Do("break;"))
-        return False
+        return self._leave("break")
 
     def _do_Continue(self, node: ast.Continue) -> bool:
-        self.unit.loops[-1](self, False)
-        self.unit.emit(code.Do("continue;"))
+        return self._leave("continue")
+
+    def _leave(self, how: str) -> bool:
+        loop = self.unit.loops[-1]
+        if not isinstance(loop, Unrolled):
+            loop(self, how == "break")
+            self.unit.emit(code.Do(f"{how};"))
+        elif loop.depth == len(self.unit.blocks):
+            loop.left = how
+        else:
+            raise Untranslatable(f"a {how} that numbers at run time decide on, in a loop over a sequence: write an if")
         return False
 
     def _do_For(self, node: ast.For) -> bool:
         items = self.value(node.iter)
         if isinstance(items, range) and len(items) > _LONG:
-            self.translator.counted(self, node, items)
+            counted(self, node, items)
             return True
+        loop = Unrolled(len(self.unit.blocks))
+        self.unit.loops.append(loop)
         for item in list(items):
-            self._bind(node.target, item)
-            if not self.run(node.body):
+            self.bind(node.target, item)
+            loop.left = ""
+            if not self.run(node.body) and not loop.left:
                 return False
+            if loop.left == "break":
+                break
+        self.unit.loops.pop()
         return True
 
     def _do_While(self, node: ast.While) -> bool:
-        return self.translator.repeated(self, node)
-
-    # expressions
-
-    def value(self, node: ast.expr) -> Any:
-        """Return the value of an expression."""
-        found = getattr(self, f"_of_{type(node).__name__}", None)
-        if found is None:
-            raise Untranslatable(f"no {type(node).__name__} here: {ast.unparse(node)}")
-        return found(node)
-
-    def truth(self, value: Any) -> Any:
-        """Return True or False, or a number at run time that is one of them."""
-        if isinstance(value, Num):
-            return value if value.kind == "b" else compare("!=", value, 0)
-        return bool(value)
-
-    def _lookup(self, name: str) -> Any:
-        for names in (self.names, self.closure.names, self.closure.module):
-            if name in names:
-                if isinstance(names[name], Poison):
-                    raise Untranslatable(names[name].reason)
-                return names[name]
-        return getattr(__import__("builtins"), name)
-
-    def _of_Name(self, node: ast.Name) -> Any:
-        return self._lookup(node.id)
-
-    def _of_Constant(self, node: ast.Constant) -> Any:
-        return node.value
-
-    def _of_Tuple(self, node: ast.Tuple) -> Any:
-        return tuple(self._items(node.elts))
-
-    def _of_List(self, node: ast.List) -> Any:
-        return self._items(node.elts)
-
-    def _items(self, nodes: list[ast.expr]) -> list[Any]:
-        found: list[Any] = []
-        for each in nodes:
-            if isinstance(each, ast.Starred):
-                found.extend(self.value(each.value))
-            else:
-                found.append(self.value(each))
-        return found
-
-    def _of_Dict(self, node: ast.Dict) -> Any:
-        found: dict[Any, Any] = {}
-        for key, value in zip(node.keys, node.values, strict=True):
-            found |= self.value(value) if key is None else {self.value(key): self.value(value)}
-        return found
-
-    def _of_Attribute(self, node: ast.Attribute) -> Any:
-        return self.translator.attribute(self.unit, self.value(node.value), node.attr)
-
-    def _of_Subscript(self, node: ast.Subscript) -> Any:
-        index = self.value(node.slice)
-        if is_dynamic(index):
-            raise Untranslatable(f"{ast.unparse(node)}: a place that is known at run time only")
-        return self.value(node.value)[index]
-
-    def _of_Slice(self, node: ast.Slice) -> Any:
-        return slice(*(None if part is None else self.value(part) for part in (node.lower, node.upper, node.step)))
-
-    def _of_UnaryOp(self, node: ast.UnaryOp) -> Any:
-        value = self.value(node.operand)
-        if isinstance(node.op, ast.Not):
-            test = self.truth(value)
-            return ~test if isinstance(test, Num) else not test
-        if isinstance(node.op, ast.Invert) and isinstance(value, np.ndarray) and is_dynamic(value):
-            return elementwise(operator.invert)(value)
-        return -value if isinstance(node.op, ast.USub) else ~value
-
-    def _of_BinOp(self, node: ast.BinOp) -> Any:
-        return self._operated(node.op, self.value(node.left), self.value(node.right))
-
-    def _operated(self, op: ast.operator, one: Any, other: Any) -> Any:
-        function = _OPERATORS[type(op)]
-        if isinstance(op, ast.BitOr | ast.BitAnd | ast.Pow) and isinstance(one, np.ndarray | Num):
-            function = elementwise(function)
-        return function(one, other)
-
-    def _of_Compare(self, node: ast.Compare) -> Any:
-        left, found = self.value(node.left), []
-        for op, right_node in zip(node.ops, node.comparators, strict=True):
-            right = self.value(right_node)
-            found.append(self._compared(op, left, right))
-            left = right
-        result = found[0]
-        for each in found[1:]:
-            result = self._both(result, each)
-        return result
-
-    def _both(self, one: Any, other: Any) -> Any:
-        if not isinstance(one, Num):
-            return other if one else False
-        if not isinstance(other, Num):
-            return one if other else False
-        return both(one, other)
-
-    def _compared(self, op: ast.cmpop, one: Any, other: Any) -> Any:
-        if isinstance(op, ast.Is | ast.IsNot):
-            return (one is other) == isinstance(op, ast.Is)
-        if isinstance(op, ast.In | ast.NotIn):
-            inside: Any = False
-            for item in other:
-                same = self._compared(ast.Eq(), one, item)
-                if isinstance(same, Num):
-                    inside = same if inside is False else either(inside, same)
-                elif same:
-                    inside = True
-                    break
-            return inside if isinstance(op, ast.In) else (~inside if isinstance(inside, Num) else not inside)
-        sign, known = _SIGNS[type(op)]
-        if isinstance(one, tuple) and isinstance(other, tuple) and (is_dynamic(one) or is_dynamic(other)):
-            pairs = [self._compared(ast.Eq(), *pair) for pair in zip(one, other, strict=True)]
-            alike = functools.reduce(self._both, pairs)
-            return alike if isinstance(op, ast.Eq) else (~alike if isinstance(alike, Num) else not alike)
-        if not (is_dynamic(one) or is_dynamic(other)):
-            return known(one, other)
-        if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
-            return elementwise(lambda x, y: compare(sign, x, y))(one, other)
-        if not (is_number(one) and is_number(other)):
-            return isinstance(op, ast.NotEq)
-        return compare(sign, one, other)
-
-    def _of_BoolOp(self, node: ast.BoolOp) -> Any:
-        return self._joined_by(isinstance(node.op, ast.And), node.values)
-
-    def _joined_by(self, every: bool, nodes: list[ast.expr]) -> Any:
-        """Return `one and other and ...`, or with or: as Python, later ones are looked at if earlier ones ask for it."""
-        first = self.value(nodes[0])
-        test = self.truth(first)
-        if len(nodes) == 1:
-            return first
-        if not isinstance(test, Num):
-            return self._joined_by(every, nodes[1:]) if bool(test) == every else first
-        rest, block = self.unit.branch(lambda: self._joined_by(every, nodes[1:]))
-        logical = isinstance(first, Num) and first.kind == "b" and (isinstance(rest, bool) or _is_test(rest))
-        if logical and not block:
-            return both(first, rest) if every else either(first, rest)
-        then: code.Block = block if every else []
-        otherwise: code.Block = [] if every else block
-        pair = (rest, first) if every else (first, rest)
-        if not block and is_number(first) and is_number(rest):
-            return chosen(test, *pair)
-        found = self.unit.joined("chosen", *pair, then, otherwise)
-        self.unit.emit(code.If(test.text, then, otherwise))
-        return found
-
-    def _of_IfExp(self, node: ast.IfExp) -> Any:
-        test = self.truth(self.value(node.test))
-        if not isinstance(test, Num):
-            return self.value(node.body if test else node.orelse)
-        one, then = self.unit.branch(lambda: self.value(node.body))
-        other, otherwise = self.unit.branch(lambda: self.value(node.orelse))
-        if not then and not otherwise and is_number(one) and is_number(other):
-            return chosen(test, one, other)
-        found = self.unit.joined("chosen", one, other, then, otherwise)
-        self.unit.emit(code.If(test.text, then, otherwise))
-        return found
-
-    def _of_JoinedStr(self, node: ast.JoinedStr) -> Any:
-        form, operands = "", []
-        for part in node.values:
-            if isinstance(part, ast.Constant):
-                form += str(part.value).replace("%", "%%")
-                continue
-            assert isinstance(part, ast.FormattedValue)
-            value = self.value(part.value)
-            spec = str(self.value(part.format_spec)) if part.format_spec is not None else ""
-            if isinstance(value, Num):
-                form += f"%{spec or 'g'}"
-                operands.append(literal(value))
-            else:
-                form += format(value, spec).replace("%", "%%")
-        return Text(form, operands) if operands else form.replace("%%", "%")
-
-    def _of_Lambda(self, node: ast.Lambda) -> Any:
-        return self._closure(node, "step")
-
-    def _closure(self, node: ast.Lambda | ast.FunctionDef, name: str) -> Closure:
-        """Return a function that keeps the names it uses."""
-        seen = self.closure.names | self.names
-        uses = {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}
-        kept = {each: seen[each] for each in sorted(uses) if each in seen}
-        return Closure(node, name, kept, self.closure.module, f"{self.closure.path}.{name}")
-
-    def _comprehended(self, node: Any, give: Callable[[], Any]) -> list[Any]:
-        found: list[Any] = []
-
-        def level(depth: int) -> None:
-            if depth == len(node.generators):
-                found.append(give())
-                return
-            part = node.generators[depth]
-            for item in list(self.value(part.iter)):
-                self._bind(part.target, item)
-                if all(self.truth(self.value(test)) for test in part.ifs):
-                    level(depth + 1)
-
-        outer, self.names = self.names, dict(self.names)
-        level(0)
-        self.names = outer
-        return found
-
-    def _of_ListComp(self, node: ast.ListComp) -> Any:
-        return self._comprehended(node, lambda: self.value(node.elt))
-
-    _of_GeneratorExp = _of_ListComp
-
-    def _of_DictComp(self, node: ast.DictComp) -> Any:
-        return dict(self._comprehended(node, lambda: (self.value(node.key), self.value(node.value))))
-
-    def _of_Call(self, node: ast.Call) -> Any:
-        operands, named = self._items(node.args), {}
-        for keyword in node.keywords:
-            value = self.value(keyword.value)
-            named |= value if keyword.arg is None else {keyword.arg: value}
-        if isinstance(node.func, ast.Attribute):
-            owner = self.value(node.func.value)
-            method = ARRAY_METHODS.get(node.func.attr)
-            if method and (isinstance(owner, np.ndarray) and is_dynamic(owner)):
-                return method(owner, *operands, **named)
-            function = self.translator.attribute(self.unit, owner, node.func.attr)
-        else:
-            function = self.value(node.func)
-        return self._call(function, operands, named)
-
-    def _call(self, function: Any, operands: list[Any], named: dict[str, Any]) -> Any:
-        handler = HANDLERS.get(function) if function.__hash__ else None
-        if handler is not None and (is_dynamic(operands) or is_dynamic(named) or function in ALWAYS):
-            return handler(*operands, **named)
-        if isinstance(function, Method):
-            return self.translator.call(self.unit, function.function, [function.owner, *operands], named)
-        if isinstance(function, Closure):
-            return self.translator.call(self.unit, function, operands, named)
-        if not is_dynamic(operands) and not is_dynamic(named):
-            return function(*operands, **named)
-        if isinstance(function, types.MethodType) and not is_dynamic(function.__self__):
-            if function.__name__ == "_replace":
-                return function(*operands, **named)
-            return self.translator.call(self.unit, function.__func__, [function.__self__, *operands], named)
-        if hasattr(function, "__wrapped__"):
-            function = inspect.unwrap(function)
-        if isinstance(function, types.FunctionType):
-            return self.translator.call(self.unit, function, operands, named)
-        if isinstance(function, type) and (dataclasses.is_dataclass(function) or hasattr(function, "_fields")):
-            return function(*operands, **named)
-        if isinstance(function, types.MethodType | types.BuiltinMethodType | type) or function is range:
-            return function(*operands, **named)
-        own = getattr(type(function), "__call__", None)
-        if isinstance(own, types.FunctionType):
-            return self.translator.call(self.unit, own, [function, *operands], named)
-        raise Untranslatable(f"a call of {function!r}: it has no counterpart in C so far")
+        return repeated(self, node)

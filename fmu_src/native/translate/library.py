@@ -211,7 +211,7 @@ HANDLERS: dict[Any, Handler] = {
     builtins.bool: lambda value: compare("!=", value, 0) if isinstance(value, Num) and value.kind != "b" else value,
     builtins.isinstance: _isinstance,
     builtins.len: len,
-    builtins.zip: lambda *items, **rest: list(zip(*items, **rest)),
+    builtins.zip: lambda *items, strict=False: list(zip(*items, strict=strict)),
     builtins.enumerate: lambda *items: list(enumerate(*items)),
     builtins.tuple: lambda items=(): tuple(items),
     builtins.list: lambda items=(): list(items),

@@ -1,24 +1,53 @@
 """C functions under construction, and how values that come from several branches become one."""
 
+import ast
 import dataclasses
 import re
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Collection
+from types import FunctionType
+from typing import Any, Protocol
 
 import numpy as np
 
 from . import code
-from .values import Num, Untranslatable, is_dynamic, is_number, kind_of, literal, parts, rebuilt, replaced, signature
+from .values import (
+    Closure,
+    Num,
+    Untranslatable,
+    is_dynamic,
+    is_number,
+    kind_of,
+    literal,
+    parts,
+    rebuilt,
+    replaced,
+    signature,
+)
 
 Leaf = Callable[[str, Any, Any], Any]
 
 _WHOLE = re.compile(r"[A-Za-z_]\w*(\.\w+)?|-?[\d.]+(e[-+]?\d+)?|-?INFINITY|NAN")
-_TAKEN = set(
-    "double int long short float const if else for while return struct auto register signed static switch volatile "
-    "goto default case char do enum extern sizeof typedef union unsigned void inline restrict why "
-    "exp log pow sqrt fabs floor ceil round gamma time index j0 j1 y0 y1 jn yn tanh sinh remainder signal squared "
-    "smaller larger".split()
+KEYWORDS = frozenset(
+    re.findall(
+        r"\w+",
+        "double int long short float const if else for while return struct auto register signed static switch volatile "
+        "goto default case char do enum extern sizeof typedef union unsigned void inline restrict break continue",
+    )
 )
+_TAKEN = KEYWORDS.union(  # and what headers of C and elementary.h have
+    re.findall(
+        r"\w+",
+        "why exp log pow sqrt fabs floor ceil round gamma time index j0 j1 y0 y1 jn yn tanh sinh remainder signal "
+        "squared smaller larger centre from_bits bits_of exp_parts exp_of log_of power_of_two refuse",
+    )
+)
+
+
+class Text:
+    """A message with numbers that are known at run time: a format of C and its operands."""
+
+    def __init__(self, form: str, operands: list[Num]) -> None:
+        self.form, self.operands = form, operands
 
 
 class Poison:
@@ -31,8 +60,9 @@ class Poison:
 class Unit:
     """One C function under construction."""
 
-    def __init__(self, name: str, template: Any = None, *, scratch: bool) -> None:
+    def __init__(self, name: str, template: Any, names: list[str], *, scratch: bool) -> None:
         self.name, self.template, self.scratch = name, template, scratch
+        self.part_names = names  # of what it returns
         self.blocks: list[code.Block] = [[]]
         self.names: set[str] = set()
         self.returned: list[Any] = []
@@ -112,7 +142,42 @@ class Unit:
         return unified(one, other, leaf, name)
 
 
-def unique(name: str, taken: set[str]) -> str:
+class Writer(Protocol):
+    """What a scope asks of the translator."""
+
+    def attribute(self, unit: Unit, owner: Any, name: str) -> Any:
+        """Return a member of a value."""
+
+    def call(self, unit: Unit, function: FunctionType | Closure, operands: list[Any], named: dict[str, Any]) -> Any:
+        """Return what a call gives."""
+
+    def gives(self, unit: Unit, value: Any) -> None:
+        """Return a value from the function of a unit."""
+
+    def refuses(self, unit: Unit, text: Text) -> None:
+        """Leave the function of a unit with a message."""
+
+
+class Names(Protocol):
+    """What a loop asks of a scope."""
+
+    names: dict[str, Any]
+
+    @property
+    def unit(self) -> Unit:
+        """The function under construction."""
+
+    def run(self, statements: list[ast.stmt]) -> bool:
+        """Run statements; return True if what follows them is reached."""
+
+    def test(self, node: ast.expr) -> Any:
+        """Return the truth of an expression."""
+
+    def refuse(self, message: str | Text) -> None:
+        """Leave the function with a message."""
+
+
+def unique(name: str, taken: Collection[str]) -> str:
     """Return a name that is not taken, with a number if need be."""
     found, count = name, 1
     while found in taken:

@@ -3,7 +3,7 @@
 import dataclasses
 import enum
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from types import FunctionType
 from typing import Any, ClassVar
 
@@ -13,7 +13,7 @@ import numpy as np
 ATOM, UNARY, MULTIPLY, ADD, COMPARE, BIT, AND, OR, CHOICE = range(9, 0, -1)
 
 
-class Untranslatable(Exception):
+class Untranslatable(Exception):  # noqa: N818  # what it is, not that it failed
     """Python that has no counterpart here; names the place and what to write instead."""
 
 
@@ -133,15 +133,14 @@ def literal(value: Any, kind: str = "d") -> Num:
     if not isinstance(value, bool | int | float):
         raise Untranslatable(f"{value!r} is no number")
     if kind != "d":
-        number = int(value)
-        return Num(str(number), kind, ATOM if number >= 0 else UNARY)
+        return Num(str(int(value)), kind, ATOM if value >= 0 else UNARY)
     number = float(value)
     if math.isnan(number):
         return Num("NAN")
     text = "INFINITY" if math.isinf(number) else repr(abs(number))
     if "." not in text and "e" not in text and "I" not in text:
         text += ".0"
-    return Num(f"-{text}", binds=UNARY) if number < 0.0 else Num(text)
+    return Num(f"-{text}", binds=UNARY) if math.copysign(1.0, number) < 0.0 else Num(text)
 
 
 def is_number(value: Any) -> bool:
@@ -188,7 +187,8 @@ def _bits(sign: str, one: Any, other: Any) -> Any:
             unknown = other if isinstance(one, bool) else one
             return (True if known else unknown) if sign == "|" else (unknown if known else False)
         return both(one, other) if sign == "&" else either(one, other)
-    return Num(f"{literal(one, 'i').at_least(BIT + 1)} {sign} {literal(other, 'i').at_least(BIT + 1)}", "i", BIT)
+    first, second = (literal(each, "i").at_least(COMPARE + 1) for each in (one, other))  # as compilers ask for
+    return Num(f"{first} {sign} {second}", "i", BIT)
 
 
 def both(one: Any, other: Any) -> Num:
@@ -262,6 +262,7 @@ class Method:
 
 _static: dict[int, Any] = {}  # objects without a number at run time, kept alive so that their ids stay theirs
 _signatures: dict[int, int] = {}  # of these objects
+_WHOLE = frozenset({float, int, bool, str, type(None), np.float64, FunctionType, type, np.ufunc})  # have no members
 
 
 def parts(value: Any) -> list[tuple[str, Any]] | None:
@@ -310,34 +311,49 @@ def is_dynamic(value: Any) -> bool:
     """Return True if any number in a value is known at run time only."""
     if isinstance(value, Num):
         return True
-    if id(value) in _static:
+    if type(value) in _WHOLE or id(value) in _static:
         return False
-    members = parts(value)
-    if members is None:
-        return False
-    if any(is_dynamic(item) for _, item in members):
+    if any(is_dynamic(item) for _, item in parts(value) or ()):
         return True
-    if dataclasses.is_dataclass(value):
-        _static[id(value)] = value
+    _remember(value)
     return False
 
 
-def leaves(value: Any, name: str = "") -> Iterator[tuple[str, Num]]:
-    """Yield names and numbers at run time of a value, in a fixed order."""
+def leaves(value: Any, name: str = "") -> list[tuple[str, Num]]:
+    """Return names and numbers at run time of a value, in a fixed order."""
+    found: list[tuple[str, Num]] = []
+    _collect(value, name, found)
+    return found
+
+
+def _collect(value: Any, name: str, found: list[tuple[str, Num]]) -> None:
     if isinstance(value, Num):
-        yield name, value
-    elif is_dynamic(value):
+        found.append((name, value))
+    elif not (type(value) in _WHOLE or id(value) in _static):
+        before = len(found)
         for part, item in parts(value) or ():
-            yield from leaves(item, part if not part[:1].isdigit() or not name else f"{name}_{part}")
+            _collect(item, part if not part[:1].isdigit() or not name else f"{name}_{part}", found)
+        if len(found) == before:
+            _remember(value)
 
 
 def replaced(value: Any, by: Callable[[Num], Any]) -> Any:
     """Return a value with every number at run time replaced, in the order of `leaves`."""
     if isinstance(value, Num):
         return by(value)
-    if not is_dynamic(value):
+    if type(value) in _WHOLE or id(value) in _static:
         return value
-    return rebuilt(value, [replaced(item, by) for _, item in parts(value) or ()])
+    members = [item for _, item in parts(value) or ()]
+    others = [replaced(item, by) for item in members]
+    if any(one is not other for one, other in zip(members, others, strict=True)):
+        return rebuilt(value, others)
+    return value
+
+
+def _remember(value: Any) -> None:
+    """Keep in mind that a record has no number at run time."""
+    if dataclasses.is_dataclass(value):
+        _static[id(value)] = value
 
 
 def signature(value: Any) -> Any:
@@ -345,7 +361,9 @@ def signature(value: Any) -> Any:
     if isinstance(value, Num):
         return "#" + value.kind
     if is_dynamic(value):
-        own = (id(value.node),) if isinstance(value, Closure) else (value.function,) if isinstance(value, Method) else ()
+        own = (
+            (id(value.node),) if isinstance(value, Closure) else (value.function,) if isinstance(value, Method) else ()
+        )
         shape = value.shape if isinstance(value, np.ndarray) else ()
         return type(value), own, shape, tuple((name, signature(item)) for name, item in parts(value) or ())
     if isinstance(value, Closure):
@@ -361,6 +379,6 @@ def signature(value: Any) -> Any:
     if id(value) not in _signatures:
         _static[id(value)] = value
         fields = dataclasses.fields(value) if dataclasses.is_dataclass(value) and not isinstance(value, type) else None
-        own = id(value) if fields is None else tuple(signature(getattr(value, field.name)) for field in fields)
-        _signatures[id(value)] = hash((type(value), own))
+        members = [id(value)] if fields is None else [signature(getattr(value, field.name)) for field in fields]
+        _signatures[id(value)] = hash((type(value), *members))
     return _signatures[id(value)]

@@ -1,0 +1,375 @@
+"""Expressions of Python: what is known is computed, what is not becomes C."""
+
+import ast
+import builtins
+import dataclasses
+import functools
+import inspect
+import operator
+import types
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from . import code
+from .library import ALWAYS, ARRAY_METHODS, HANDLERS, chosen, elementwise
+from .units import Poison, Text, Unit, Writer
+from .values import Closure, Method, Num, Untranslatable, both, compare, either, is_dynamic, is_number, literal
+
+_OPERATORS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.FloorDiv: operator.floordiv,
+    ast.Mod: operator.mod,
+    ast.Pow: operator.pow,
+    ast.BitOr: operator.or_,
+    ast.BitAnd: operator.and_,
+    ast.LShift: operator.lshift,
+    ast.RShift: operator.rshift,
+    ast.MatMult: operator.matmul,
+}
+_SIGNS: dict[type[ast.cmpop], tuple[str, Callable[[Any, Any], Any]]] = {
+    ast.Lt: ("<", operator.lt),
+    ast.LtE: ("<=", operator.le),
+    ast.Gt: (">", operator.gt),
+    ast.GtE: (">=", operator.ge),
+    ast.Eq: ("==", operator.eq),
+    ast.NotEq: ("!=", operator.ne),
+}
+
+
+def _is_test(value: Any) -> bool:
+    return isinstance(value, Num) and value.kind == "b"
+
+
+class Super:
+    """What `super()` gives: a record, seen as one of the classes after `cls`."""
+
+    def __init__(self, cls: type, owner: Any) -> None:
+        self.cls, self.owner = cls, owner
+
+
+class Expressions:
+    """The names of a scope of Python, and the values of expressions in it."""
+
+    def __init__(self, translator: Writer, unit: Unit, names: dict[str, Any], closure: Closure) -> None:
+        self.translator, self.unit, self.names, self.closure = translator, unit, names, closure
+
+    def value(self, node: ast.expr) -> Any:
+        """Return the value of an expression."""
+        found = getattr(self, f"_of_{type(node).__name__}", None)
+        if found is None:
+            raise Untranslatable(f"no {type(node).__name__} here: {ast.unparse(node)}")
+        return found(node)
+
+    def bind(self, target: ast.expr, value: Any) -> None:
+        """Bind names to a value."""
+        if isinstance(target, ast.Name):
+            self.names[target.id] = self.unit.named(target.id, value)
+        elif isinstance(target, ast.Tuple):
+            items = list(value)
+            starred = [i for i, each in enumerate(target.elts) if isinstance(each, ast.Starred)]
+            if starred:
+                at, rest = starred[0], len(target.elts) - starred[0] - 1
+                items = [*items[:at], items[at : len(items) - rest], *items[len(items) - rest :]]
+            for each, item in zip(target.elts, items, strict=True):
+                self.bind(each.value if isinstance(each, ast.Starred) else each, item)
+        elif isinstance(target, ast.Subscript) and isinstance(target.value, ast.Name) and self._is_entry(target):
+            owner, key = target.value.id, self.value(target.slice)
+            self.names[owner] = {**self.lookup(owner), key: self.unit.named(str(key), value)}
+        else:
+            raise Untranslatable(f"an assignment to {ast.unparse(target)}: bind a name instead")
+
+    def _is_entry(self, target: ast.Subscript) -> bool:
+        return isinstance(self.value(target.value), dict) and not is_dynamic(self.value(target.slice))
+
+    def truth(self, value: Any) -> Any:
+        """Return True or False, or a number at run time that is one of them."""
+        if isinstance(value, Num):
+            return value if value.kind == "b" else compare("!=", value, 0)
+        return bool(value)
+
+    def test(self, node: ast.expr) -> Any:
+        """Return the truth of an expression, in which `and`, `or` and `not` are logical."""
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
+            found = self.test(node.operand)
+            return ~found if isinstance(found, Num) else not found
+        if isinstance(node, ast.BoolOp):
+            return self._tested(isinstance(node.op, ast.And), node.values)
+        return self.truth(self.value(node))
+
+    def _tested(self, every: bool, nodes: list[ast.expr]) -> Any:
+        first = self.test(nodes[0])
+        if len(nodes) == 1:
+            return first
+        if not isinstance(first, Num):
+            return self._tested(every, nodes[1:]) if first == every else first
+        rest, block = self.unit.branch(lambda: self._tested(every, nodes[1:]))
+        if not block:
+            return both(first, rest) if every else either(first, rest)
+        then: code.Block = block if every else []
+        otherwise: code.Block = [] if every else block
+        one, other = (rest, False) if every else (True, rest)
+        found = self.unit.joined("holds", one, other, then, otherwise)
+        self.unit.emit(code.If(first.text, then, otherwise))
+        return found
+
+    def lookup(self, name: str) -> Any:
+        """Return what a name stands for."""
+        for names in (self.names, self.closure.names, self.closure.module):
+            if name in names:
+                if isinstance(names[name], Poison):
+                    raise Untranslatable(f"'{name}': {names[name].reason}")
+                return names[name]
+        if not hasattr(builtins, name):
+            raise Untranslatable(f"'{name}' is not bound here")
+        return getattr(builtins, name)
+
+    def _of_Name(self, node: ast.Name) -> Any:
+        return self.lookup(node.id)
+
+    def _of_NamedExpr(self, node: ast.NamedExpr) -> Any:
+        self.bind(node.target, self.value(node.value))
+        return self.lookup(node.target.id)
+
+    def _of_Constant(self, node: ast.Constant) -> Any:
+        return node.value
+
+    def _of_Tuple(self, node: ast.Tuple) -> Any:
+        return tuple(self._items(node.elts))
+
+    def _of_List(self, node: ast.List) -> Any:
+        return self._items(node.elts)
+
+    def _items(self, nodes: list[ast.expr]) -> list[Any]:
+        found: list[Any] = []
+        for each in nodes:
+            if isinstance(each, ast.Starred):
+                found.extend(self.value(each.value))
+            else:
+                found.append(self.value(each))
+        return found
+
+    def _of_Dict(self, node: ast.Dict) -> Any:
+        found: dict[Any, Any] = {}
+        for key, value in zip(node.keys, node.values, strict=True):
+            found |= self.value(value) if key is None else {self.value(key): self.value(value)}
+        return found
+
+    def _of_Attribute(self, node: ast.Attribute) -> Any:
+        return self.translator.attribute(self.unit, self.value(node.value), node.attr)
+
+    def _of_Subscript(self, node: ast.Subscript) -> Any:
+        index = self.value(node.slice)
+        if is_dynamic(index):
+            raise Untranslatable(f"{ast.unparse(node)}: a place that is known at run time only")
+        return self.value(node.value)[index]
+
+    def _of_Slice(self, node: ast.Slice) -> Any:
+        return slice(*(None if part is None else self.value(part) for part in (node.lower, node.upper, node.step)))
+
+    def _of_UnaryOp(self, node: ast.UnaryOp) -> Any:
+        if isinstance(node.op, ast.Not):
+            return self.test(node)
+        value = self.value(node.operand)
+        if isinstance(node.op, ast.Invert) and isinstance(value, np.ndarray) and is_dynamic(value):
+            return elementwise(operator.invert)(value)
+        if isinstance(node.op, ast.Invert):
+            return ~value
+        return -value if isinstance(node.op, ast.USub) else +value
+
+    def _of_BinOp(self, node: ast.BinOp) -> Any:
+        return self.operated(node.op, self.value(node.left), self.value(node.right))
+
+    def operated(self, op: ast.operator, one: Any, other: Any) -> Any:
+        """Return one value, an operator and another."""
+        function = _OPERATORS.get(type(op))
+        if function is None:
+            raise Untranslatable(f"no operator {type(op).__name__} here")
+        if isinstance(op, ast.BitOr | ast.BitAnd | ast.Pow) and isinstance(one, np.ndarray | Num):
+            function = elementwise(function)
+        return function(one, other)
+
+    def _of_Compare(self, node: ast.Compare) -> Any:
+        left, found = self.value(node.left), []
+        for op, right_node in zip(node.ops, node.comparators, strict=True):
+            right = self.value(right_node)
+            found.append(self._compared(op, left, right))
+            left = right
+        result = found[0]
+        for each in found[1:]:
+            result = self._both(result, each)
+        return result
+
+    def _both(self, one: Any, other: Any) -> Any:
+        if not isinstance(one, Num):
+            return other if one else False
+        if not isinstance(other, Num):
+            return one if other else False
+        return both(one, other)
+
+    def _compared(self, op: ast.cmpop, one: Any, other: Any) -> Any:
+        if isinstance(op, ast.Is | ast.IsNot):
+            return (one is other) == isinstance(op, ast.Is)
+        if isinstance(op, ast.In | ast.NotIn):
+            inside: Any = False
+            for item in other:
+                same = self._compared(ast.Eq(), one, item)
+                if isinstance(same, Num):
+                    inside = same if inside is False else either(inside, same)
+                elif same:
+                    inside = True
+                    break
+            return inside if isinstance(op, ast.In) else (~inside if isinstance(inside, Num) else not inside)
+        sign, known = _SIGNS[type(op)]
+        if isinstance(one, tuple) and isinstance(other, tuple) and (is_dynamic(one) or is_dynamic(other)):
+            pairs = [self._compared(ast.Eq(), *pair) for pair in zip(one, other, strict=True)]
+            alike = functools.reduce(self._both, pairs)
+            return alike if isinstance(op, ast.Eq) else (~alike if isinstance(alike, Num) else not alike)
+        if not (is_dynamic(one) or is_dynamic(other)):
+            return known(one, other)
+        if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+            return elementwise(lambda x, y: compare(sign, x, y))(one, other)
+        if not (is_number(one) and is_number(other)):
+            return isinstance(op, ast.NotEq)
+        return compare(sign, one, other)
+
+    def _of_BoolOp(self, node: ast.BoolOp) -> Any:
+        return self._joined_by(isinstance(node.op, ast.And), node.values)
+
+    def _joined_by(self, every: bool, nodes: list[ast.expr]) -> Any:
+        """Return `one and other and ...`, or with or: later ones are looked at where earlier ones ask for it."""
+        first = self.value(nodes[0])
+        test = self.truth(first)
+        if len(nodes) == 1:
+            return first
+        if not isinstance(test, Num):
+            return self._joined_by(every, nodes[1:]) if bool(test) == every else first
+        rest, block = self.unit.branch(lambda: self._joined_by(every, nodes[1:]))
+        logical = isinstance(first, Num) and first.kind == "b" and (isinstance(rest, bool) or _is_test(rest))
+        if logical and not block:
+            return both(first, rest) if every else either(first, rest)
+        then: code.Block = block if every else []
+        otherwise: code.Block = [] if every else block
+        pair = (rest, first) if every else (first, rest)
+        if not block and is_number(first) and is_number(rest):
+            return chosen(test, *pair)
+        found = self.unit.joined("chosen", *pair, then, otherwise)
+        self.unit.emit(code.If(test.text, then, otherwise))
+        return found
+
+    def _of_IfExp(self, node: ast.IfExp) -> Any:
+        test = self.test(node.test)
+        if not isinstance(test, Num):
+            return self.value(node.body if test else node.orelse)
+        one, then = self.unit.branch(lambda: self.value(node.body))
+        other, otherwise = self.unit.branch(lambda: self.value(node.orelse))
+        if not then and not otherwise and is_number(one) and is_number(other):
+            return chosen(test, one, other)
+        found = self.unit.joined("chosen", one, other, then, otherwise)
+        self.unit.emit(code.If(test.text, then, otherwise))
+        return found
+
+    def _of_JoinedStr(self, node: ast.JoinedStr) -> Any:
+        form, operands = "", []
+        for part in node.values:
+            if isinstance(part, ast.Constant):
+                form += str(part.value).replace("%", "%%")
+                continue
+            assert isinstance(part, ast.FormattedValue)
+            value = self.value(part.value)
+            spec = str(self.value(part.format_spec)) if part.format_spec is not None else ""
+            if isinstance(value, Num):
+                form += f"%{spec or 'g'}"
+                operands.append(literal(value))
+            else:
+                form += format(value, spec).replace("%", "%%")
+        return Text(form, operands) if operands else form.replace("%%", "%")
+
+    def _of_Lambda(self, node: ast.Lambda) -> Any:
+        return self.closed(node, "step")
+
+    def closed(self, node: ast.Lambda | ast.FunctionDef, name: str) -> Closure:
+        """Return a function that keeps the names it uses."""
+        seen = self.closure.names | self.names
+        uses = {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}
+        kept = {each: seen[each] for each in sorted(uses) if each in seen}
+        given, named = node.args, zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True)
+        usual = [*zip(given.args[len(given.args) - len(given.defaults) :], given.defaults, strict=True), *named]
+        kept |= {each.arg: self.value(value) for each, value in usual if value is not None}
+        return Closure(node, name, kept, self.closure.module, f"{self.closure.path}.{name}")
+
+    def _comprehended(self, node: Any, give: Callable[[], Any]) -> list[Any]:
+        found: list[Any] = []
+
+        def level(depth: int) -> None:
+            if depth == len(node.generators):
+                found.append(give())
+                return
+            part = node.generators[depth]
+            for item in list(self.value(part.iter)):
+                self.bind(part.target, item)
+                if all(self.test(test) for test in part.ifs):
+                    level(depth + 1)
+
+        outer, self.names = self.names, dict(self.names)
+        level(0)
+        self.names = outer
+        return found
+
+    def _of_ListComp(self, node: ast.ListComp | ast.GeneratorExp) -> Any:
+        return self._comprehended(node, lambda: self.value(node.elt))
+
+    def _of_GeneratorExp(self, node: ast.GeneratorExp) -> Any:
+        return self._of_ListComp(node)
+
+    def _of_DictComp(self, node: ast.DictComp) -> Any:
+        return dict(self._comprehended(node, lambda: (self.value(node.key), self.value(node.value))))
+
+    def _of_Call(self, node: ast.Call) -> Any:
+        if isinstance(node.func, ast.Name) and node.func.id == "super":
+            return Super(self.lookup("__class__"), self.lookup(self.closure.node.args.args[0].arg))
+        operands = self._items(node.args)
+        named: dict[str, Any] = {}
+        for keyword in node.keywords:
+            value = self.value(keyword.value)
+            named |= value if keyword.arg is None else {keyword.arg: value}
+        if isinstance(node.func, ast.Attribute):
+            owner = self.value(node.func.value)
+            method = ARRAY_METHODS.get(node.func.attr)
+            if method and (isinstance(owner, np.ndarray) and is_dynamic(owner)):
+                return method(owner, *operands, **named)
+            function = self.translator.attribute(self.unit, owner, node.func.attr)
+        else:
+            function = self.value(node.func)
+        return self._call(function, operands, named)
+
+    def _call(self, function: Any, operands: list[Any], named: dict[str, Any]) -> Any:
+        handler = HANDLERS.get(function) if function.__hash__ else None
+        if handler is not None and (is_dynamic(operands) or is_dynamic(named) or function in ALWAYS):
+            return handler(*operands, **named)
+        if isinstance(function, Method):
+            return self.translator.call(self.unit, function.function, [function.owner, *operands], named)
+        if isinstance(function, Closure):
+            return self.translator.call(self.unit, function, operands, named)
+        if not is_dynamic(operands) and not is_dynamic(named):
+            return function(*operands, **named)
+        if isinstance(function, types.MethodType) and not is_dynamic(function.__self__):
+            if function.__name__ == "_replace":
+                return function(*operands, **named)
+            return self.translator.call(self.unit, function.__func__, [function.__self__, *operands], named)  # type: ignore[arg-type]
+        if hasattr(function, "__wrapped__"):
+            function = inspect.unwrap(function)
+        if isinstance(function, types.FunctionType):
+            return self.translator.call(self.unit, function, operands, named)
+        if isinstance(function, type) and (dataclasses.is_dataclass(function) or hasattr(function, "_fields")):
+            return function(*operands, **named)
+        if isinstance(function, types.MethodType | types.BuiltinMethodType | type) or function is range:
+            return function(*operands, **named)
+        own = inspect.getattr_static(type(function), "__call__", None)
+        if isinstance(own, types.FunctionType):
+            return self.translator.call(self.unit, own, [function, *operands], named)
+        raise Untranslatable(f"a call of {function!r}: it has no counterpart in C so far")

@@ -1,0 +1,73 @@
+"""Functions of Python: their syntax trees, names and texts."""
+
+import ast
+import functools
+import inspect
+import textwrap
+import types
+from typing import Any
+
+from .values import Closure
+
+
+@functools.cache
+def _tree(function: types.FunctionType) -> Any:
+    """Return the syntax tree of a function."""
+    source = textwrap.dedent(inspect.getsource(function))
+    found = next(
+        node
+        for node in ast.walk(ast.parse(source))
+        if isinstance(node, ast.FunctionDef | ast.Lambda) and getattr(node, "name", "<lambda>") == function.__name__
+    )
+    ast.increment_lineno(found, function.__code__.co_firstlineno - 1)  # lines of its file
+    return found
+
+
+def closure_of(function: types.FunctionType) -> Closure:
+    """Return a function with its tree."""
+    cells = function.__closure__ or ()
+    names = dict(zip(function.__code__.co_freevars, (cell.cell_contents for cell in cells), strict=True))
+    path = f"{function.__module__}.{function.__qualname__}"
+    return Closure(_tree(function), _name_of(function), names, function.__globals__, path)
+
+
+def _name_of(function: types.FunctionType) -> str:
+    """Return the name of the C function: that of its class before that of a method."""
+    owner, _, name = function.__qualname__.rpartition(".")
+    owner = owner.rpartition(".")[2].lstrip("_")
+    if not owner or owner == "<locals>":
+        return name.strip("_")
+    snake = "".join(f"_{c.lower()}" if c.isupper() and i else c.lower() for i, c in enumerate(owner))
+    return snake if name == "__call__" else f"{snake}_{name.strip('_')}"
+
+
+def about(closure: Closure) -> list[str]:
+    """Return the lines of a comment: the first line of a function's text, and where it stands."""
+    text = ast.get_docstring(closure.node) if isinstance(closure.node, ast.FunctionDef) else None
+    found = [*text.splitlines()[:1], closure.path] if text else [closure.path]
+    return [line.replace("*/", "* /") for line in found]
+
+
+def statements_of(node: Any) -> list[ast.stmt]:
+    """Return the statements of a function but its text."""
+    return [each for each in node.body if not (isinstance(each, ast.Expr) and isinstance(each.value, ast.Constant))]
+
+
+def is_straight(node: Any) -> bool:
+    """Return True for a function without choices and loops: each element of an array has a copy of it."""
+    *before, last = statements_of(node)
+    return isinstance(last, ast.Return) and all(isinstance(each, ast.Assign) for each in before)
+
+
+def expression_of(node: Any) -> ast.expr | None:
+    """Return the expression of a function that is nothing else."""
+    if isinstance(node, ast.Lambda):
+        return node.body
+    body = statements_of(node)
+    return body[0].value if len(body) == 1 and isinstance(body[0], ast.Return) else None
+
+
+def method_after(cls: type, kind: type, name: str) -> Any:
+    """Return a method of the first class after `cls` among the ancestors of a class."""
+    ancestors = kind.__mro__
+    return next(vars(each)[name] for each in ancestors[ancestors.index(cls) + 1 :] if name in vars(each))
