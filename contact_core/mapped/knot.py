@@ -61,16 +61,17 @@ def solve(scene: Scene, number: int, point: OperatingPoint, before: OperatingPoi
         if rubbed > 0.0:
             state, _ = regression.advance(Case.bind(fast, before), state, rubbed)
         state, _ = regression.advance(Case.bind(fast, point), state, 0.0)
-        after, _ = deterministic.advance(Case.bind(deep, point), state, 0.0)
+        block = Case.bind(deep, point)
+        after, _ = deterministic.advance(block, state, 0.0)
     except ContactError as error:
         return Knot(number, point, refused=str(error))
     assert state.means is not None
-    return _solved(number, point, state.means, deep, after)
+    return _solved(number, point, state.means, block, after)
 
 
-def _solved(number: int, point: OperatingPoint, means: Means, deep: Scene, after: ContactState) -> Knot:
+def _solved(number: int, point: OperatingPoint, means: Means, block: Case, after: ContactState) -> Knot:
     """Return the knot of a state that a block has just made."""
-    out, causes = after.outputs, deterministic.errors_of(deep, after)
+    out, causes = after.outputs, deterministic.errors_of(block.scene, after)
     force, film, load = (causes[name] for name in ("friction_force", "h_c", "contact_load_ratio"))
     relative = (
         force.scaled(1.0 / abs(out.friction_force) if out.friction_force != 0.0 else 0.0),

@@ -26,6 +26,7 @@ COORDINATES = (  # of a contact by the regression level, in the order of `query.
     "temperature",  # of the oil that is drawn in [K]
     "raised_1",  # by which the tribofilm of body 1 makes it rougher, over composite roughness of new surfaces
     "raised_2",  # likewise of body 2
+    "worn",  # ln of (composite roughness of the solids over that of new surfaces + 0.01)
 )
 STEEPEST = 3.0  # largest logarithm of a factor
 _FORMAT = 1

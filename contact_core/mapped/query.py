@@ -15,7 +15,7 @@ from .map import STEEPEST, Map
 
 Three = tuple[float, float, float]
 
-_SLIP, _OIL, _THIN, _NONE = 0.1, 1e-4, 1e-3, 1e-9  # least numbers: no logarithm of 0
+_SLIP, _OIL, _THIN, _WORN, _NONE = 0.1, 1e-4, 1e-3, 0.01, 1e-9  # least numbers: no logarithm of 0
 _MARGIN = 1.0  # of half the range of a coordinate, over which a map fades out beyond it
 
 
@@ -54,6 +54,7 @@ def coordinates(case: Case, contact: MeanContact) -> tuple[float, ...]:
         op.inlet_temperature,
         contact.tribofilms[0].raised / new,
         contact.tribofilms[1].raised / new,
+        math.log(math.hypot(contact.tribofilms[0].solid, contact.tribofilms[1].solid) / new + _WORN),
     )
 
 

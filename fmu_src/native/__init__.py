@@ -1,10 +1,14 @@
 """The native flavour: an FMU in C99 for one scene, without Python.
 
-    files     the files of an FMU: all sources, and the libraries built from them
-    model     writes model.c, the tables of a scene's variables
-    build     the sources that every FMU shares, and libraries by zig or gcc
+    files      the files of an FMU: all sources, and the libraries built from them
+    program    the step of one scene, and contact.c, contact.h and slopes.c written from it
+    translate  from Python to C99, with everything known of a scene put in
+    tables     tables.h: numbers of the elementary functions
+    model      writes model.c, the tables of a scene's variables
+    build      the sources that every FMU shares, and libraries by zig or gcc
 
 Sources that every FMU shares: instance.c (order of calls, steps), values.c (variables), states.c (saved states),
-derivatives.c (derivatives by inputs), log.c (log); fmi2.c, fmi3.c and fmi3_absent.c pass the calls of FMI on to them.
-Generated for a scene: contact.c, contact.h (the equations) and model.c.
+derivatives.c (derivatives by inputs), log.c (log), elementary.h (exp, log, powers); fmi2.c, fmi3.c and fmi3_absent.c
+pass the calls of FMI on to them.
+Generated for a scene: contact.c, slopes.c and contact.h (the equations), tables.h and model.c.
 """

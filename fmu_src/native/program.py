@@ -8,12 +8,14 @@ import copy
 import dataclasses
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from contact_core import initial_state
 from contact_core.errors import OperatingPointError, SceneError
-from contact_core.film import Regression
+from contact_core.film import Mapped, Regression
+from contact_core.mapped.map import map_of
+from contact_core.mapped.query import corrected
 from contact_core.quantities import OF_CALLER, OF_CORE
 from contact_core.regression import evolution
 from contact_core.regression.contact import MeanContact, evaluate
@@ -29,10 +31,11 @@ from .translate import Entry, Num, Translator, Untranslatable, is_number, litera
 Found = tuple[ContactState, Outputs]
 
 
-def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
-    """Return a scene at an operating point. Raises OperatingPointError where it cannot be used."""
-    _check_radii(scene, point)
-    case = Case.at(scene, _with_own_radii(scene, point), state.temperatures)
+def bound(given: Case, state: ContactState) -> Case:
+    """Return a case with the temperatures of a state. Raises OperatingPointError where it cannot be used."""
+    scene, point = given.scene, given.op
+    _check_radii(given)
+    case = Case.at(scene, _with_own_radii(given), state.temperatures)
     law, bulk, inlet = scene.tribofilm, scene.heat.bulk, scene.lubricant.supply.inlet
     for temperature in point.bodies if bulk.from_inputs else (point.temperature,):
         if law.refusal(_COLD) and not law.covers(temperature):
@@ -55,13 +58,13 @@ _COLD = 0.0  # K: no law covers it; as the temperature of a body: none yet
 _SAME_RADIUS = 1e-9  # relative: a host may convert units
 
 
-def _check_radii(scene: Scene, point: OperatingPoint) -> None:
+def _check_radii(case: Case) -> None:
     """Raise OperatingPointError if a point contact has other radii than the scene.
 
     The elliptic integrals of its shape are computed when the FMU is built.
     """
-    for name, radius in _own_radii(scene).items():
-        given = getattr(point, name)
+    for name, radius in _own_radii(case.scene).items():
+        given = getattr(case.op, name)
         if given is not None and abs(given - radius) > _SAME_RADIUS * radius:
             raise OperatingPointError(
                 f"{name} = {given:g} m: this FMU holds Hertz's contact of {name} = {radius:g} m. Keep that, or build "
@@ -75,27 +78,56 @@ def _own_radii(scene: Scene) -> dict[str, float]:
     return {name: getattr(scene.operation, name) or getattr(scene.geometry, name) for name in names}
 
 
-def _with_own_radii(scene: Scene, point: OperatingPoint) -> OperatingPoint:
+def _with_own_radii(case: Case) -> OperatingPoint:
     """Return an operating point with those radii as constants; None where they are those of the geometry."""
-    own = {name: getattr(scene.operation, name) and radius for name, radius in _own_radii(scene).items()}
-    return dataclasses.replace(point, **own)
+    operation = case.scene.operation
+    own = {name: getattr(operation, name) and radius for name, radius in _own_radii(case.scene).items()}
+    return dataclasses.replace(case.op, **own)
 
 
-def step(scene: Scene, point: OperatingPoint, state: ContactState, dt: float) -> Found:
+def step(case: Case, state: ContactState, dt: float) -> Found:
     """Return the state and the outputs after a step of `dt` [s]."""
-    begun = _begun(point, state)
-    after, outputs = evolution.advance(bound(scene, point, begun), begun, dt, _contact)
-    if scene.heat.bulk.stores_heat and dt == 0.0:  # bodies begin at the temperature of the oil of the first step
+    begun = _begun(case.op, state)
+    contacts = _contacts(case.scene, derivatives=False)
+    after, outputs = evolution.advance(bound(case, begun), begun, dt, contacts)
+    if case.scene.heat.bulk.stores_heat and dt == 0.0:  # bodies begin at the temperature of the oil of the first step
         after = changed(after, temperatures=state.temperatures)
     return after, outputs
 
 
-def derivatives(scene: Scene, point: OperatingPoint, state: ContactState) -> tuple[float, float, float, float]:
+def derivatives(case: Case, state: ContactState) -> tuple[float, float, float, float]:
     """Return the derivatives of friction_force by speed_1, speed_2, load and temperature."""
-    begun = _begun(point, state)
-    case = bound(scene, point, begun).warmed(begun.temperatures)
+    begun = _begun(case.op, state)
+    now = bound(case, begun).warmed(begun.temperatures)
     assert state.means is not None
-    return evaluate(case, tribofilms_of(state.means)).derivatives
+    return _contacts(case.scene, derivatives=True)(now, tribofilms_of(state.means)).derivatives
+
+
+def _contacts(scene: Scene, *, derivatives: bool) -> evolution.ContactOf:
+    """Return the function that evaluates contacts of a scene at its level."""
+    return _LEVELS[scene.film.name](scene, derivatives)
+
+
+def _of_curves(scene: Scene, derivatives: bool) -> evolution.ContactOf:
+    def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
+        return evaluate(case, tribofilms, derivatives)
+
+    return contact_of
+
+
+def _of_map(scene: Scene, derivatives: bool) -> evolution.ContactOf:
+    chart = map_of(scene)
+
+    def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
+        return corrected(chart, case, evaluate(case, tribofilms, derivatives))
+
+    return contact_of
+
+
+_LEVELS: dict[str, Callable[[Scene, bool], evolution.ContactOf]] = {
+    Regression.name: _of_curves,
+    Mapped.name: _of_map,
+}
 
 
 def _begun(point: OperatingPoint, state: ContactState) -> ContactState:
@@ -104,10 +136,6 @@ def _begun(point: OperatingPoint, state: ContactState) -> ContactState:
         return state
     one, two = (stored if stored > _COLD else point.temperature for stored in state.temperatures)
     return changed(state, temperatures=(one, two))
-
-
-def _contact(case: Case, tribofilms: Tribofilms) -> MeanContact:
-    return evaluate(case, tribofilms, derivatives=False)
 
 
 def first_state(scene: Scene) -> ContactState:
@@ -173,12 +201,17 @@ _written: dict[str, dict[str, str]] = {}  # by scene, without what is known at r
 def _key(scene: Scene) -> str:
     """Return all of a scene that its equations in C depend on."""
     table = scene.to_dict()
-    for name in TRACKS:
+    for name in TRACKS if _may_vary(scene) else ():
         table["geometry"].pop(name)
     for name in _point_names(scene):
         if name not in _own_radii(scene):
             table["operation"].pop(name, None)
     return json.dumps(table, sort_keys=True)
+
+
+def _may_vary(scene: Scene) -> bool:
+    """Return True if track lengths can be numbers at run time: a map is read for the scene as it is."""
+    return not isinstance(scene.film, Mapped)
 
 
 def _tracks(*lengths: float) -> str:
@@ -198,10 +231,11 @@ def _at_run_time(scene: Scene) -> Scene:
 
 
 def _equations(scene: Scene) -> dict[str, str]:
-    point, state, loose = _point(scene), _state(scene), _at_run_time(scene)
+    given = _at_run_time(scene) if _may_vary(scene) else scene
+    case, state = Case(given, _point(scene)), _state(scene)
     try:
-        stepped, step_texts = translated(step, [loose, point, state, Num("dt")])
-        slopes, slope_texts = translated(derivatives, [loose, point, state])
+        stepped, step_texts = translated(step, [case, state, Num("dt")])
+        slopes, slope_texts = translated(derivatives, [case, state])
     except Untranslatable as error:
         raise SceneError(
             f"The equations of '{scene.name}' cannot be written as C: {error}\ndocs/how-to/native_fmu.md says what "
@@ -247,10 +281,10 @@ def _equations(scene: Scene) -> dict[str, str]:
 
 def _check(scene: Scene) -> None:
     """Raise SceneError for a scene that no native FMU can have."""
-    if not isinstance(scene.film, Regression):
+    if scene.film.name not in _LEVELS:
         raise SceneError(
             f"film.model = '{scene.film.name}' solves contacts, and a native FMU has no solver. Set film.model = "
-            "'regression', or build with --flavour isolated."
+            f"{' or '.join(repr(name) for name in _LEVELS)}, or build with --flavour isolated."
         )
     if scene.stress.samples:
         raise SceneError(
@@ -270,12 +304,17 @@ def translated(
     function: Any, operands: list[Any], instead: Mapping[Any, Any] | None = None
 ) -> tuple[Entry, list[str]]:
     """Return a function to be called from C, and it and all that it needs as C."""
-    reads: dict[str, set[str]] = {}
+    reads: dict[Any, set[str]] = {}
+    needed: dict[Any, set[str]] = {}  # members that were left out, but are read
     while True:  # members of results that nothing reads are left out, and then what was computed for them
         translator = Translator(reads, instead)
         entry = translator.program(function, operands)
         texts = translator.texts([entry])
-        found = reads | translator.wanted(texts, [entry])
+        for key, member in translator.missed(texts):
+            needed.setdefault(key, set()).add(member)
+        found = dict(reads)
+        for key, members in translator.wanted(texts, [entry]).items():
+            found[key] = members & reads.get(key, members) | needed.get(key, set())
         if found == reads:
             return entry, texts
         reads = found

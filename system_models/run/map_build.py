@@ -12,10 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_core.correction import CORRECTED
 from contact_core.errors import ContactError
-from contact_core.mapped.fitting import FEWEST, Rule, Samples, fitted, predicted, widths_at
-from contact_core.mapped.knot import Knot, samples_of, solve
+from contact_core.mapped.fitting import FEWEST, Rule, Samples, fitted, widths_at
+from contact_core.mapped.knot import Knot, contact_of, samples_of, solve
 from contact_core.mapped.map import Map, digest_of
+from contact_core.mapped.query import here, told
+from contact_core.regression.outputs import half_widths
 from contact_core.scene import Scene
 
 from .map_ranges import Ranges
@@ -51,6 +54,7 @@ class Judged:
     off: Array  # from the map
     of_map: Array  # half widths of the map alone
     of_block: Array  # that the blocks state themselves
+    outside: int  # knots beyond the ranges of the map, where the regression level takes over
 
     @property
     def stated(self) -> Array:
@@ -99,14 +103,14 @@ def build(order: Order, file: Path, progress: Progress = lambda knots, halves: N
                     first = tuple(known[number] for number in range(checked))
                     if len(fit_knots(first)) >= FEWEST:
                         chart = mapped(order, first)
-                        halves = half_widths(order, chart, first)
+                        halves = medians(order, chart, first)
                         reached = max(halves[:2]) <= order.accuracy
                 progress(len(known), halves)
                 if reached or time.monotonic() > end:
                     break
     used = tuple(known[number] for number in sorted(known) if not reached or number < checked)
     chart = mapped(order, used)
-    return Built(order, chart, used, reached, half_widths(order, chart, used), judged(order, chart, used))
+    return Built(order, chart, used, reached, medians(order, chart, used), judged(order, chart, used))
 
 
 def _with_none_first(results: Iterator[Knot]) -> Generator[Knot | None]:
@@ -160,7 +164,7 @@ def mapped(order: Order, knots: tuple[Knot, ...]) -> Map:
     return fitted(samples, order.scene.name, digest_of(order.scene), order.ranges.rows, Rule())
 
 
-def half_widths(order: Order, chart: Map, knots: tuple[Knot, ...]) -> tuple[float, ...]:
+def medians(order: Order, chart: Map, knots: tuple[Knot, ...]) -> tuple[float, ...]:
     """Return the median half widths of a map alone over its knots."""
     samples = samples_of(scene_of_knots(order.scene), fit_knots(knots))
     return tuple(map(float, np.median(widths_at(chart, samples.places), axis=0)))
@@ -171,11 +175,19 @@ def judged(order: Order, chart: Map, knots: tuple[Knot, ...]) -> Judged | None:
     held = held_knots(knots)
     if not held:
         return None
-    samples = samples_of(scene_of_knots(order.scene), held)
-    blocks = np.array([knot.errors for knot in held])
-    return Judged(
-        samples, samples.off, samples.off - predicted(chart, samples), widths_at(chart, samples.places), blocks
-    )
+    scene = scene_of_knots(order.scene)
+    samples = samples_of(scene, held)
+    blocks, trust = np.array([knot.errors for knot in held]), np.empty((len(held), 1))
+    off, regression = np.empty_like(samples.off), np.empty_like(samples.off)
+    for row, knot in enumerate(held):
+        case, contact = contact_of(scene, knot)
+        place = here(chart, case, contact)
+        friction, film, ratio = told(chart, place, contact.load_ratio)
+        off[row] = samples.off[row] - (math.log(friction), math.log(film), ratio - contact.load_ratio)
+        stated = half_widths(case, contact)
+        regression[row], trust[row] = [stated[error] for error in CORRECTED.values()], place.trust
+    of_map = trust * widths_at(chart, samples.places) + (1.0 - trust) * regression
+    return Judged(samples, samples.off, off, of_map, blocks, int(np.sum(trust < 1.0)))
 
 
 def _head(order: Order) -> dict[str, object]:

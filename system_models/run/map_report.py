@@ -24,10 +24,11 @@ def lines(built: Built) -> list[str]:
     refused = sum(bool(knot.refused) for knot in built.knots)
     unsure = len(built.knots) - len(fitted) - len(held) - refused
     chart = built.chart
+    beyond = f" ({built.judged.outside} beyond the ranges of the others)" if built.judged is not None else ""
     why = "the accuracy is reached" if built.reached else "the time was over"
     return [
-        f"{len(built.knots)} knots: {len(fitted)} fitted, {len(held)} held back, {refused} refused, {unsure} not "
-        f"converged or at the edge of the grid. No more because {why}.",
+        f"{len(built.knots)} knots: {len(fitted)} fitted, {len(held)} held back{beyond}, {refused} refused, {unsure} "
+        f"not converged or at the edge of the grid. No more because {why}.",
         f"{1 + len(chart.term)} terms in {', '.join(COORDINATES[k] for k in chart.picked)}; a query costs {chart.cost} "
         f"multiplications and additions; {len(chart.to_text()) / 1024:.0f} kB.",
         *aligned(rows(built), 1),

@@ -23,7 +23,7 @@ from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, lea
 _COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 _CORE, _LAWS = "contact_core.", "contact_core.laws."
 _PARTS = "system_models."
-_UNREAD = "unread"  # stands for a number that nothing reads in the end
+_UNREAD = "unread_"  # stands, with a number, for a member that nothing reads in the end
 
 
 @dataclass
@@ -69,7 +69,7 @@ class Translator:
     """Writes the C functions of a program."""
 
     def __init__(
-        self, reads: Mapping[str, set[str]] | None = None, instead: Mapping[Any, types.FunctionType] | None = None
+        self, reads: Mapping[Any, set[str]] | None = None, instead: Mapping[Any, types.FunctionType] | None = None
     ) -> None:
         """Begin a program.
 
@@ -81,6 +81,8 @@ class Translator:
         self.functions: list[tuple[str, str]] = []  # names and texts, each after those that it calls
         self._cache: dict[Any, CFunction] = {}
         self._names: set[str] = set()
+        self._unread: list[tuple[Any, str]] = []  # what a function is made from, and a member that nothing reads
+        self._keys: dict[str, Any] = {}  # what the functions are made from, by their names
         self._units: list[Unit] = []
         self._kept: list[Any] = []
 
@@ -105,22 +107,34 @@ class Translator:
                 kept.append((name, text))
         return code.merged(kept[::-1])
 
-    def wanted(self, texts: Sequence[str], entries: Sequence["Entry"]) -> dict[str, set[str]]:
-        """Return the members that anything reads of the structs of functions; of entries all."""
-        found: dict[str, set[str]] = {}
+    def wanted(self, texts: Sequence[str], entries: Sequence["Entry"]) -> dict[Any, set[str]]:
+        """Return the members that anything reads of the structs of functions, by what these are; of entries all."""
+        found: dict[Any, set[str]] = {}
         for text in texts:
-            for struct, name in re.findall(r"const struct (\w+) (\w+) =", text):
-                found.setdefault(struct, set()).update(re.findall(rf"\b{name}\.(\w+)", text))
+            for struct, name in re.findall(r"const struct (\w+)\s+(\w+)\s+=", text):
+                found.setdefault(self._keys[struct], set()).update(re.findall(rf"\b{name}\.(\w+)", text))
         for entry in entries:
-            found.pop(entry.name, None)
+            found.pop(self._keys.get(entry.name), None)
         return found
+
+    def missed(self, texts: Sequence[str]) -> list[tuple[Any, str]]:
+        """Return what a function is made from and the member, of members marked as unread that texts read after all."""
+        return [self._unread[int(place)] for text in texts for place in set(re.findall(rf"\b{_UNREAD}(\d+)", text))]
 
     def _wanted(self, name: str, template: Any, names: list[str]) -> Any:
         """Return the form of a result in which members that nobody reads are marked."""
-        if name not in self._reads:
+        if self._keys[name] not in self._reads:
             return template
-        fields = iter(fields_of(template, names))
-        return replaced(template, lambda hole: Num("" if next(fields) in self._reads[name] else _UNREAD, hole.kind))
+        fields, key = iter(fields_of(template, names)), self._keys[name]
+
+        def marked(hole: Num) -> Num:
+            field = next(fields)
+            if field in self._reads[key]:
+                return hole
+            self._unread.append((key, field))
+            return Num(f"{_UNREAD}{len(self._unread) - 1}", hole.kind)
+
+        return replaced(template, marked)
 
     # what a scope asks for
 
@@ -272,6 +286,7 @@ class Translator:
         if key not in self._cache:
             self._kept.append((closure, bound))
             name = self._new_name(closure.name)
+            self._keys[name] = key
             first = self._written(name, closure, bound, None)
             if not first.returned:
                 raise Untranslatable(f"{closure.path} always refuses")

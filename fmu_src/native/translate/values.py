@@ -368,6 +368,8 @@ def signature(value: Any) -> Any:
         return type(value), own, shape, tuple((name, signature(item)) for name, item in parts(value) or ())
     if isinstance(value, Closure):
         return id(value.node), tuple((name, signature(item)) for name, item in value.names.items())
+    if isinstance(value, FunctionType):
+        return id(value.__code__), tuple(signature(cell.cell_contents) for cell in value.__closure__ or ())
     if value is None or isinstance(value, bool | int | float | str):
         return type(value), repr(value)
     if isinstance(value, np.ndarray):
