@@ -372,8 +372,8 @@ def calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple
 
 def source(texts: Sequence[str]) -> str:
     """Return a C file of functions."""
-    refuses = [_REFUSE] if any("refuse(" in text for text in texts) else []
-    return "\n\n".join([_HEAD, *refuses, *texts]) + "\n"
+    refuses = [REFUSE] if any("refuse(" in text for text in texts) else []
+    return "\n\n".join([INCLUDES, *refuses, *texts]) + "\n"
 
 
 def struct(name: str, members: Sequence[str], about: dict[str, Variable]) -> list[str]:
@@ -430,7 +430,7 @@ def header(
     )
 
 
-_HEAD = """\
+INCLUDES = """\
 /* Written from contact_core; each function names the Python that it was written from. Do not edit. */
 
 #include "contact.h"
@@ -439,7 +439,7 @@ _HEAD = """\
 #include <stdarg.h>
 #include <stdio.h>"""
 
-_REFUSE = """\
+REFUSE = """\
 static void refuse(contact_message *why, const char *format, ...)
 {
     va_list operands;
@@ -447,3 +447,5 @@ static void refuse(contact_message *why, const char *format, ...)
     vsnprintf(why->text, sizeof why->text, format, operands);
     va_end(operands);
 }"""
+
+HEAD = f"{INCLUDES}\n\n{REFUSE}"
