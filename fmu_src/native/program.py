@@ -300,9 +300,7 @@ _OF_TRACKS = (
 )
 
 
-def translated(
-    function: Any, operands: list[Any], instead: Mapping[Any, Any] | None = None
-) -> tuple[Entry, list[str]]:
+def translated(function: Any, operands: list[Any], instead: Mapping[Any, Any] | None = None) -> tuple[Entry, list[str]]:
     """Return a function to be called from C, and it and all that it needs as C."""
     reads: dict[Any, set[str]] = {}
     needed: dict[Any, set[str]] = {}  # members that were left out, but are read

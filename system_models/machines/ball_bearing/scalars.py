@@ -249,7 +249,7 @@ def gathered(loads: Any, levels: int) -> tuple[Any, Any, Any]:
     start = [math.sqrt(s / (levels * total)) for _ in cloud for s in size]
     basis, diagonal, beside = _lanczos(points, start, levels)
     values, vectors = _eigen(diagonal, beside)
-    weights = []
+    weights: list[Any] = []
     for vector in vectors:
         all_points = [sum([v * b[p] for v, b in zip(vector, basis, strict=True)]) for p in range(len(points))]
         weights = [
@@ -266,7 +266,9 @@ def _cube_root(x: float) -> float:
 
 def _lanczos(points: Any, start: Any, steps: int) -> tuple[list[Any], list[float], list[float]]:
     """Return the basis, and the diagonal and what is beside it, of Lanczos' steps."""
-    basis, diagonal, beside = [start], [], []
+    basis: list[Any] = [start]
+    diagonal: list[float] = []
+    beside: list[float] = []
     for k in range(steps):
         image = [p * b for p, b in zip(points, basis[k], strict=True)]
         diagonal = [*diagonal, _product(basis[k], image)]
