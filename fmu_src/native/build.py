@@ -9,8 +9,10 @@ import sys
 import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
+from platform import machine
 from shutil import which
 from typing import Literal
 
@@ -64,7 +66,19 @@ _FMI2 = {
     "darwin64": ("x86_64-darwin", "aarch64-darwin"),
 }
 PLATFORMS: dict[Fmi, Mapping[str, tuple[str, ...]]] = {2: _FMI2, 3: {name: (name,) for name in TARGETS}}
+_SYSTEMS = {"win32": "windows", "darwin": "darwin"}  # of sys.platform; others are Linux
+_PROCESSORS = {"amd64": "x86_64", "arm64": "aarch64"}  # as they call themselves there
 _OF_GCC: dict[Fmi, str] = {2: "linux64", 3: "x86_64-linux"}
+
+
+def own(fmi: Fmi) -> str:
+    """Return the name of this platform. Raises ValueError if no library is built for it."""
+    processor = machine().lower()
+    target = f"{_PROCESSORS.get(processor, processor)}-{_SYSTEMS.get(sys.platform, 'linux')}"
+    for name, targets in PLATFORMS[fmi].items():
+        if target in targets:
+            return name
+    raise ValueError(f"No native FMU of FMI {fmi}.0 is built for {target}, but for {', '.join(PLATFORMS[fmi])}.")
 
 
 def runtime(fmi: Fmi) -> dict[str, bytes]:
@@ -143,19 +157,57 @@ def _library(
 
 def command(folder: Path, target: str, compiler: Compiler, library: Path) -> list[str]:
     """Return the call that builds the library of all C files in a folder."""
-    zig = [sys.executable, "-m", "ziglang", "cc", "-target", TARGETS[target].triple]
-    call = zig if compiler == "zig" else [compiler]
     files = sorted(path.name for path in folder.glob("*.c"))
     include = ("-isystem", str(headers()))
-    return [*call, *WARNINGS, *FLAGS, *include, "-o", str(library), *files, *TARGETS[target].linker]
+    return [
+        *_caller(target, compiler),
+        *WARNINGS,
+        *FLAGS,
+        *include,
+        "-o",
+        str(library),
+        *files,
+        *TARGETS[target].linker,
+    ]
 
 
 def compiled(folder: Path, target: str, compiler: Compiler) -> bytes:
-    """Return the library of all C files in a folder for one target."""
+    """Return the library of all C files in a folder for one target; files met before are not compiled again."""
+    sources = {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix in (".c", ".h")}
+    headers_of_all = tuple(sorted((name, data) for name, data in sources.items() if name.endswith(".h")))
     with tempfile.TemporaryDirectory() as scratch:
+        for name, data in sources.items():
+            if name.endswith(".c"):
+                made = _object(name, data, headers_of_all, target, compiler)
+                Path(scratch, f"{name.removesuffix('.c')}.o").write_bytes(made)
         library = Path(scratch, f"library{TARGETS[target].suffix}")  # zig also writes an import library
-        subprocess.run(command(folder, target, compiler, library), cwd=folder, check=True)
+        files = sorted(path.name for path in Path(scratch).glob("*.o"))
+        call = [*_caller(target, compiler), *FLAGS, "-o", str(library), *files, *TARGETS[target].linker]
+        subprocess.run(call, cwd=scratch, check=True)
         return library.read_bytes()
+
+
+@lru_cache(maxsize=512)
+def _object(
+    name: str, source: bytes, included: tuple[tuple[str, bytes], ...], target: str, compiler: Compiler
+) -> bytes:
+    """Return one C file compiled."""
+    with tempfile.TemporaryDirectory() as scratch:
+        for file, data in (*included, (name, source)):
+            Path(scratch, file).write_bytes(data)
+        options = [flag for flag in FLAGS if flag not in _OF_LINKER]
+        call = [*_caller(target, compiler), *WARNINGS, *options, "-isystem", str(headers()), "-c", name, "-o", "one.o"]
+        subprocess.run(call, cwd=scratch, check=True)
+        return Path(scratch, "one.o").read_bytes()
+
+
+_OF_LINKER = ("-s", "-shared")
+
+
+def _caller(target: str, compiler: Compiler) -> list[str]:
+    if compiler == "zig":
+        return [sys.executable, "-m", "ziglang", "cc", "-target", TARGETS[target].triple]
+    return [compiler]
 
 
 _FAT, _PAGE = 0xCAFEBABE, 14  # magic number, logarithm of the alignment

@@ -24,12 +24,12 @@ def contact(scene: Scene) -> dict[str, bytes]:
     return {name: text.encode() for name, text in texts.items()}
 
 
-def binaries(sources: Mapping[str, bytes], fmi: Version) -> dict[str, bytes]:
+def binaries(sources: Mapping[str, bytes], fmi: Version, model: str = MODEL, here: bool = False) -> dict[str, bytes]:
     """Return the libraries by their names in an FMU, such as binaries/linux64/MixedContact.so.
 
-    Raises FileNotFoundError if there is no compiler.
+    `here`: that of this platform only. Raises FileNotFoundError if there is no compiler.
     """
-    return build.binaries(sources, fmi, MODEL)
+    return build.binaries(sources, fmi, model, chosen=[build.own(fmi)] if here else None)
 
 
 def missing(fmi: Version) -> list[str]:

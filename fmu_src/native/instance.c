@@ -23,7 +23,8 @@ typedef char moment_has_padding[sizeof(Moment) == 2 * sizeof(contact_inputs) + s
 
 static Status out_of_turn(const Instance *it, const char *call) {
     static const char *const when[] = {"before initialisation", "in configuration mode", "in initialisation mode",
-                                       "in initialisation mode", "after initialisation"};
+                                       "in initialisation mode", "after initialisation",
+                                       "after initialisation"};
     if (it->asking)
         return log_error(it, "%s%s is not allowed in intermediate update mode. Nothing was done.", it->host.prefix, call);
     if (it->terminated)
@@ -107,7 +108,9 @@ static Status refuse_broken(Instance *it) {
     return refuse(it, WARNING, OF_SOLVER, why.text);
 }
 
-static uint32_t flags(const Instance *it) { return (uint32_t)instance_integer(output(it, MODEL_RANGE_FLAGS)); }
+static uint32_t flags(const Instance *it) {
+    return MODEL_RANGE_FLAGS < OUTPUTS ? (uint32_t)instance_integer(output(it, MODEL_RANGE_FLAGS)) : 0;
+}
 
 static void log_flags(const Instance *it, uint32_t appeared) {
     for (size_t i = 0; appeared && i < MODEL_FLAGS_COUNT; i++) {
@@ -192,6 +195,10 @@ Status instance_enter(Instance *it) {
 }
 
 Status instance_refresh(Instance *it) {
+    if (it->now.phase == BEHIND) {
+        it->now.phase = STEPPING; /* also if they cannot be had: they stand */
+        return it->now.ready ? advance(it, 0.0) : OK;
+    }
     if (it->now.phase != UNSETTLED) return OK;
     it->now.phase = SETTLED;
     return initialise(it);
@@ -216,7 +223,7 @@ static double rounded(double time, double size) {
 
 Status instance_check_step(Instance *it, double time, double size) {
     Text why = {.size = 0};
-    if (must_be(it, "DoStep", STEPPING, STEPPING) != OK) return ERROR;
+    if (must_be(it, "DoStep", STEPPING, BEHIND) != OK) return ERROR;
     size = rounded(time, size);
     double length = isfinite(size) ? fabs(size) : 0.0;
     if (!isfinite(time)) {
@@ -244,11 +251,12 @@ Status instance_step(Instance *it, double time, double size) {
     size = rounded(time, size);
     it->now.time = size >= 0.0 && isfinite(time + size) ? time + size : time; /* also if the step cannot be computed */
     it->anywhere = 0;
+    it->now.phase = STEPPING;
     return advance(it, size);
 }
 
 Status instance_terminate(Instance *it) {
-    if (must_be(it, "Terminate", STEPPING, STEPPING) != OK) return ERROR;
+    if (must_be(it, "Terminate", STEPPING, BEHIND) != OK) return ERROR;
     it->terminated = 1;
     return OK;
 }

@@ -15,7 +15,8 @@ typedef enum {
     CONFIGURING, /* FMI 3: between NEW and NEW */
     UNSETTLED,   /* in initialisation mode, outputs older than what they depend on */
     SETTLED,     /* in initialisation mode, outputs up to date */
-    STEPPING
+    STEPPING,
+    BEHIND /* after initialisation, an input has been set that outputs follow at once */
 } Phase;
 
 typedef struct {
@@ -93,7 +94,7 @@ Status instance_reset(Instance *it);
 /* Check a step, or advance by one that has been checked. */
 Status instance_check_step(Instance *it, double time, double size);
 Status instance_step(Instance *it, double time, double size);
-/* In initialisation mode bring the outputs up to date. */
+/* Bring the outputs up to date, where they are older than what they depend on. */
 Status instance_refresh(Instance *it);
 /* True if each input can be used; each output is finite. */
 int inputs_usable(const contact_inputs *inputs);

@@ -17,6 +17,7 @@ typedef enum { INPUT, FIXED, TUNABLE, OUTPUT, DERIVATIVE, VALID, FIDELITY_USED, 
 typedef enum { OF_WARNINGS, OF_ERRORS, OF_VALIDITY, OF_SOLVER, CATEGORIES } Category;
 
 /* Places count doubles from the beginning of contact_inputs or contact_outputs. */
+/* Of names without brackets: load_1 for load[1]. */
 #define PLACE_OF_INPUT(name) (offsetof(contact_inputs, name) / sizeof(double))
 #define PLACE_OF_OUTPUT(name) (offsetof(contact_outputs, name) / sizeof(double))
 
@@ -55,12 +56,13 @@ typedef struct {
 
 extern const char MODEL_TOKEN[TOKEN];
 extern const double MODEL_FIDELITY; /* level that gives the outputs */
+extern const int MODEL_FOLLOWS;     /* outputs follow inputs without a step between */
 extern const Variable MODEL_VARIABLES[];
 extern const size_t MODEL_VARIABLES_COUNT;
 extern const Input MODEL_INPUTS[INPUTS];
 extern const Derivative MODEL_DERIVATIVES[];
 extern const size_t MODEL_DERIVATIVES_COUNT;
-extern const size_t MODEL_FRICTION_FORCE, MODEL_RANGE_FLAGS; /* places */
+extern const size_t MODEL_FRICTION_FORCE, MODEL_RANGE_FLAGS; /* places; OUTPUTS: there is none */
 extern const Flag MODEL_FLAGS[];
 extern const size_t MODEL_FLAGS_COUNT;
 extern const char *const MODEL_CATEGORIES[CATEGORIES];

@@ -1,6 +1,7 @@
 """Writes model.c: what the C sources of a native FMU know of their scene's variables."""
 
 import math
+import sys
 from collections.abc import Iterable, Sequence
 
 from contact_core.state import RangeFlag
@@ -8,6 +9,7 @@ from contact_core.state import RangeFlag
 from ..runtime.guarded import LOG_CATEGORIES
 from ..runtime.slave import OF_SOLVER
 from ..variables import FIDELITY, Variable
+from .names import c_name
 
 _KINDS = {"Real": "REAL", "Integer": "INTEGER", "Boolean": "BOOLEAN", "String": "STRING"}
 _CATEGORIES = {  # members of Category in model.h, in their order
@@ -19,6 +21,8 @@ _CATEGORIES = {  # members of Category in model.h, in their order
 _OF_RUNTIME = {"valid": "VALID", "fidelity_used": "FIDELITY_USED"}  # outputs that are not the contact's
 _FRICTION, _FLAGS, _DERIVATIVE = "friction_force", "range_flags", "dfriction_d"
 _LONGEST_TOKEN = 39  # characters
+_LARGEST = sys.float_info.max
+_NO_INPUT = '"none", "", "", PLACE_OF_INPUT(none), 0.0, 0.0, 1.0'  # C has no empty array
 
 _FILE = """/* Written by tribofmu for one scene; see model.h. */
 
@@ -27,6 +31,7 @@ _FILE = """/* Written by tribofmu for one scene; see model.h. */
 const char MODEL_TOKEN[TOKEN] = {token};
 
 const double MODEL_FIDELITY = {fidelity};
+const int MODEL_FOLLOWS = {follows};
 
 /* in order of value references */
 const Variable MODEL_VARIABLES[] = {{
@@ -41,9 +46,9 @@ const Input MODEL_INPUTS[INPUTS] = {{
 const Derivative MODEL_DERIVATIVES[] = {{
 {derivatives}
 }};
-const size_t MODEL_DERIVATIVES_COUNT = sizeof MODEL_DERIVATIVES / sizeof *MODEL_DERIVATIVES;
+const size_t MODEL_DERIVATIVES_COUNT = {derivatives_count};
 
-const size_t MODEL_FRICTION_FORCE = PLACE_OF_OUTPUT({friction}), MODEL_RANGE_FLAGS = PLACE_OF_OUTPUT({flag_output});
+const size_t MODEL_FRICTION_FORCE = {friction}, MODEL_RANGE_FLAGS = {flag_output};
 
 const Flag MODEL_FLAGS[] = {{
 {flags}
@@ -56,8 +61,10 @@ const char *const MODEL_CATEGORIES[CATEGORIES] = {{
 """
 
 
-def model_c(table: Sequence[Variable], token: str) -> str:
+def model_c(table: Sequence[Variable], token: str, *, ranges: bool = True) -> str:
     """Return the text of model.c for an FMU's variables, in order of value references, and its guid or token.
+
+    `ranges`: inputs outside theirs are refused; else all finite ones are taken.
 
     Raises ValueError for what the sources in C cannot hold: a long token, an input without a range, a text that is not
     empty at the start.
@@ -66,23 +73,30 @@ def model_c(table: Sequence[Variable], token: str) -> str:
         raise ValueError(f"The token {token} is longer than {_LONGEST_TOKEN} characters. Give a UUID.")
     inputs = [v for v in table if v.causality == "input"]
     derivatives = [v.name for v in table if v.name.startswith(_DERIVATIVE)]
-    (fidelity,) = (v.start for v in table if v.name == FIDELITY)
+    fidelity = next((v.start for v in table if v.name == FIDELITY), 0.0)
     return _FILE.format(
         token=c_text(token),
         fidelity=_number(fidelity),
+        follows=int(any(v.direct for v in table)),
         variables=_rows(_variable(v) for v in table),
-        inputs=_rows(_input(v) for v in inputs),
+        inputs=_rows(_input(v, ranges) for v in inputs) or f"    {{{_NO_INPUT}}}",
         derivatives=_rows(
             f"PLACE_OF_OUTPUT({name}), PLACE_OF_INPUT({name.removeprefix(_DERIVATIVE)})" for name in derivatives
-        ),
-        friction=_FRICTION,
-        flag_output=_FLAGS,
+        )
+        or "    {0, 0}",
+        derivatives_count=len(derivatives),
+        friction=_place(_FRICTION, table),
+        flag_output=_place(_FLAGS, table),
         flags=_rows(
             f"{int(flag)}u, {'OF_SOLVER' if flag in OF_SOLVER else 'OF_VALIDITY'}, {c_text(flag.text)}"
             for flag in RangeFlag
         ),
         categories=",\n".join(f"    [{place}] = {c_text(_known(name))}" for place, name in _CATEGORIES.items()),
     )
+
+
+def _place(output: str, table: Sequence[Variable]) -> str:
+    return f"PLACE_OF_OUTPUT({output})" if any(v.name == output for v in table) else "OUTPUTS"
 
 
 def c_text(text: str) -> str:
@@ -109,9 +123,9 @@ def _number(value: object) -> str:
 def _variable(v: Variable) -> str:
     role, place, start = _role(v), "0", "0.0"
     if role == "INPUT":
-        place = f"PLACE_OF_INPUT({v.name})"
+        place = f"PLACE_OF_INPUT({c_name(v.name)})"
     elif role in ("OUTPUT", "DERIVATIVE"):
-        place = f"PLACE_OF_OUTPUT({v.name})"
+        place = f"PLACE_OF_OUTPUT({c_name(v.name)})"
     if v.kind == "String" and v.start:
         raise ValueError(f"{v.name} starts as {v.start!r}: a text of a native FMU must start empty.")
     if v.has_start and v.kind != "String":
@@ -129,8 +143,9 @@ def _role(v: Variable) -> str:
     return _OF_RUNTIME.get(v.name, "DERIVATIVE" if v.name.startswith(_DERIVATIVE) else "OUTPUT")
 
 
-def _input(v: Variable) -> str:
-    if not (math.isfinite(v.minimum) and math.isfinite(v.maximum) and v.nominal and v.kind == "Real"):
+def _input(v: Variable, ranges: bool) -> str:
+    least, most = (v.minimum, v.maximum) if ranges else (-_LARGEST, _LARGEST)
+    if not (math.isfinite(least) and math.isfinite(most) and v.nominal and v.kind == "Real"):
         raise ValueError(f"The input {v.name} must be a Real with minimum, maximum and nominal value.")
-    numbers = ", ".join(map(_number, (v.minimum, v.maximum, v.nominal)))
-    return f"{c_text(v.name)}, {c_text(v.text)}, {c_text(v.unit)}, PLACE_OF_INPUT({v.name}), {numbers}"
+    numbers = ", ".join(map(_number, (least, most, v.nominal)))
+    return f"{c_text(v.name)}, {c_text(v.text)}, {c_text(v.unit)}, PLACE_OF_INPUT({c_name(v.name)}), {numbers}"

@@ -4,8 +4,11 @@
 for one scene. All equations are those of `contact_core`.
 """
 
+import copy
 import dataclasses
-from collections.abc import Callable, Iterator, Sequence
+import json
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from contact_core import initial_state
@@ -22,6 +25,7 @@ from contact_core.state import ContactState, Mean, Outputs, changed
 from contact_core.surfaces.track_means import means_of
 
 from ..variables import Variable, variables
+from .names import c_name
 from .translate import Entry, Num, Translator, Untranslatable, is_number, literal, parts, wrapped
 
 Found = tuple[ContactState, Outputs]
@@ -147,8 +151,13 @@ def inputs_of(scene: Scene) -> tuple[str, ...]:
 
 def _point(scene: Scene) -> OperatingPoint:
     """Return the operating point at run time."""
+    return OperatingPoint(**{name: Num(name) for name in _point_names(scene)})  # type: ignore[arg-type]
+
+
+def _point_names(scene: Scene) -> list[str]:
+    """Return the inputs that the equations look at."""
     unused = () if scene.heat.bulk.from_inputs else ("body_temperature_1", "body_temperature_2")
-    return OperatingPoint(**{name: Num(name) for name in inputs_of(scene) if name not in unused})  # type: ignore[arg-type]
+    return [name for name in inputs_of(scene) if name not in unused]
 
 
 def _state(scene: Scene) -> ContactState:
@@ -161,25 +170,72 @@ def _state(scene: Scene) -> ContactState:
     return changed(given, time=Num("time"), means=means, outputs=before, temperatures=warm)
 
 
-def _paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
+def paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
     """Yield the numbers of state and outputs with the way to them."""
     if is_number(value):
         yield path, value
     else:
         for name, item in parts(value) or ():
-            yield from _paths(item, (*path, name))
+            yield from paths(item, (*path, name))
+
+
+TRACKS = {"track_length_1": "TRACK_LENGTH_1", "track_length_2": "TRACK_LENGTH_2"}  # numbers in tracks.c
 
 
 def written(scene: Scene) -> dict[str, str]:
     """Return the C sources of a scene by the names of their files.
 
+    Contacts that differ in track lengths only, such as the stations of a gear mesh, have all files but tracks.c alike.
     Raises SceneError for a scene that the native FMU cannot have.
     """
     _check(scene)
-    case, state = Case(scene, _point(scene)), _state(scene)
+    geometry, key = scene.geometry, _key(scene)
+    if key not in _written:
+        _written[key] = _equations(scene)
+    return {**_written[key], "tracks.c": _tracks(geometry.track_length_1, geometry.track_length_2)}
+
+
+_written: dict[str, dict[str, str]] = {}  # by scene, without what is known at run time only
+
+
+def _key(scene: Scene) -> str:
+    """Return all of a scene that its equations in C depend on."""
+    table = scene.to_dict()
+    for name in TRACKS if _may_vary(scene) else ():
+        table["geometry"].pop(name)
+    for name in _point_names(scene):
+        if name not in _own_radii(scene):
+            table["operation"].pop(name, None)
+    return json.dumps(table, sort_keys=True)
+
+
+def _may_vary(scene: Scene) -> bool:
+    """Return True if track lengths can be numbers at run time: a map is read for the scene as it is."""
+    return not isinstance(scene.film, Mapped)
+
+
+def _tracks(*lengths: float) -> str:
+    values = (
+        f"const double {name} = {literal(value).text};" for name, value in zip(TRACKS.values(), lengths, strict=True)
+    )
+    return "\n".join(['#include "contact.h"', "", *values, ""])
+
+
+def _at_run_time(scene: Scene) -> Scene:
+    """Return a scene whose track lengths are numbers at run time."""
+    geometry, loose = copy.copy(scene.geometry), object.__new__(type(scene))
+    geometry.__dict__.update({name: Num(number) for name, number in TRACKS.items()})
+    fields = {field.name: getattr(scene, field.name) for field in dataclasses.fields(scene)}  # no cached properties
+    loose.__dict__.update(fields | {"geometry": geometry})
+    return loose
+
+
+def _equations(scene: Scene) -> dict[str, str]:
+    given = _at_run_time(scene) if _may_vary(scene) else scene
+    case, state = Case(given, _point(scene)), _state(scene)
     try:
-        stepped, step_texts = _translated(step, [case, state, Num("dt")])
-        slopes, slope_texts = _translated(derivatives, [case, state])
+        stepped, step_texts = translated(step, [case, state, Num("dt")])
+        slopes, slope_texts = translated(derivatives, [case, state])
     except Untranslatable as error:
         raise SceneError(
             f"The equations of '{scene.name}' cannot be written as C: {error}\ndocs/how-to/native_fmu.md says what "
@@ -187,14 +243,14 @@ def written(scene: Scene) -> dict[str, str]:
         ) from error
     outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
     new_state, new_outputs = stepped.result
-    after, first = dict(_paths(new_state)), dict(_paths(first_state(scene)))
+    after, first = dict(paths(new_state)), dict(paths(first_state(scene)))
     needed = {number.text for number in (*stepped.takes, *slopes.takes)}
-    held = [(path, number) for path, number in _paths(state) if isinstance(number, Num) and number.text in needed]
+    held = [(path, number) for path, number in paths(state) if isinstance(number, Num) and number.text in needed]
     inputs = inputs_of(scene)
     stepping = [
         *_initialise([(number.text, first.get(path)) for path, number in held]),
         "",
-        *_calling(
+        *calling(
             "contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out,",
             stepped,
             inputs,
@@ -204,16 +260,22 @@ def written(scene: Scene) -> dict[str, str]:
             ],
         ),
     ]
-    sloping = _calling(
+    sloping = calling(
         "contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out,",
         slopes,
         inputs,
         [(f"out->{name}", each) for name, each in zip(SLOPES, slopes.result, strict=True)],
     )
     return {
-        "contact.h": _header(scene, inputs, [number.text for _, number in held], outputs),
-        "contact.c": "\n\n".join([HEAD, *step_texts, "\n".join(stepping)]) + "\n",
-        "slopes.c": "\n\n".join([HEAD, *slope_texts, "\n".join(sloping)]) + "\n",
+        "contact.h": header(
+            f"One contact, '{scene.name}', at the regression level; written from contact_core.",
+            variables(scene),
+            [number.text for _, number in held],
+            outputs,
+            _OF_TRACKS,
+        ),
+        "contact.c": source([*step_texts, "\n".join(stepping)]),
+        "slopes.c": source([*slope_texts, "\n".join(sloping)]),
     }
 
 
@@ -231,12 +293,19 @@ def _check(scene: Scene) -> None:
         )
 
 
-def _translated(function: Any, operands: list[Any]) -> tuple[Entry, list[str]]:
+_OF_TRACKS = (
+    "/* Travel of a point of a body between two passes [m]. */",
+    f"extern const double {', '.join(TRACKS.values())};",
+    "",
+)
+
+
+def translated(function: Any, operands: list[Any], instead: Mapping[Any, Any] | None = None) -> tuple[Entry, list[str]]:
     """Return a function to be called from C, and it and all that it needs as C."""
     reads: dict[Any, set[str]] = {}
     needed: dict[Any, set[str]] = {}  # members that were left out, but are read
     while True:  # members of results that nothing reads are left out, and then what was computed for them
-        translator = Translator(reads)
+        translator = Translator(reads, instead)
         entry = translator.program(function, operands)
         texts = translator.texts([entry])
         for key, member in translator.missed(texts):
@@ -263,49 +332,77 @@ def _initialise(values: Sequence[tuple[str, Any]]) -> list[str]:
     ]
 
 
-def _calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple[str, Any]]) -> list[str]:
+def calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple[str, Any]]) -> list[str]:
     """Return a function that calls an entry and sets members to numbers of what that returns."""
 
     def text(value: Any) -> str:
-        return f"found.{value.text}" if isinstance(value, Num) else literal(value).text
+        if not isinstance(value, Num):
+            return literal(value).text
+        if not entry.name:
+            return entry.place(value, inputs, TRACKS.values()) if value.text.isidentifier() else value.text
+        return f"found.{value.text}" if entry.returns > 1 else "found"
 
+    called = entry.called(inputs, TRACKS.values()) if entry.name else ""
+    found = f"const {f'struct {entry.name}' if entry.returns > 1 else 'double'} found = {called};"
+    calls = wrapped(found if entry.returns else f"{called};", 1) if entry.name else []
+    refuses = ["    if (why->text[0] != '\\0') {", "        return 1;", "    }"] if entry.may_fail else []
+    body = f"{called} {' '.join(text(value) for _, value in sets)}"
+    given = re.findall(r"(\w+)[,)]", f"{head})")
+    unread = [
+        name
+        for name in given
+        if name not in ("out", "state") and f"{name}->" not in body and name not in re.findall(r"\w+", body)
+    ]
+    if not any(target.startswith("state") for target, _ in sets) and "state->" not in body and "state" in given:
+        unread.append("state")
     return [
         f"int {head}",
         "    contact_message *why)",
         "{",
+        *(f"    (void){name};" for name in unread),
         "    why->text[0] = '\\0';",
-        *wrapped(f"const struct {entry.name} found = {entry.called(inputs)};", 1),
-        "    if (why->text[0] != '\\0') {",
-        "        return 1;",
-        "    }",
+        *calls,
+        *refuses,
         *(f"    {target} = {text(value)};" for target, value in sets),
         "    return 0;",
         "}",
     ]
 
 
-def _struct(name: str, members: Sequence[str], about: dict[str, Variable]) -> list[str]:
+def source(texts: Sequence[str]) -> str:
+    """Return a C file of functions."""
+    refuses = [REFUSE] if any("refuse(" in text for text in texts) else []
+    return "\n\n".join([INCLUDES, *refuses, *texts]) + "\n"
+
+
+def struct(name: str, members: Sequence[str], about: dict[str, Variable]) -> list[str]:
+    """Return a struct of doubles, with a comment of what is known of each."""
+
     def line(member: str) -> str:
         if member not in about:
             return f"    double {member};"
-        return f"    double {member}; /* {about[member].text} [{about[member].unit or '1'}] */"
+        return f"    double {c_name(member)}; /* {about[member].text} [{about[member].unit or '1'}] */"
 
     return ["typedef struct {", *map(line, members or ["none"]), f"}} {name};", ""]
 
 
-def _header(scene: Scene, inputs: Sequence[str], fields: Sequence[str], outputs: Sequence[str]) -> str:
-    about = {v.name: v for v in variables(scene)}
+def header(
+    about: str, table: Sequence[Variable], fields: Sequence[str], outputs: Sequence[str], also: Sequence[str] = ()
+) -> str:
+    """Return contact.h for a table of variables, members of the state, outputs of the equations, and more lines."""
+    inputs = [v.name for v in table if v.causality == "input"]
+    known = {v.name: v for v in table}
     return "\n".join(
         [
-            f"/* One contact, '{scene.name}', at the regression level; written from contact_core. SI units. */",
+            f"/* {about} SI units. */",
             "",
             "#ifndef CONTACT_H",
             "#define CONTACT_H",
             "",
-            *_struct("contact_inputs", inputs, about),
+            *struct("contact_inputs", inputs, known),
             "/* The slow state: plain numbers, to be copied as they are. */",
-            *_struct("contact_state", fields, {}),
-            *_struct("contact_outputs", outputs, about),
+            *struct("contact_state", fields, {}),
+            *struct("contact_outputs", outputs, known),
             "/* Why a step was refused; empty if it was not. */",
             "typedef struct {",
             "    char text[512];",
@@ -325,21 +422,23 @@ def _header(scene: Scene, inputs: Sequence[str], fields: Sequence[str], outputs:
             "int contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out, "
             "contact_message *why);",
             "",
+            *also,
             "#endif",
             "",
         ]
     )
 
 
-HEAD = """\
+INCLUDES = """\
 /* Written from contact_core; each function names the Python that it was written from. Do not edit. */
 
 #include "contact.h"
 #include "elementary.h"
 
 #include <stdarg.h>
-#include <stdio.h>
+#include <stdio.h>"""
 
+REFUSE = """\
 static void refuse(contact_message *why, const char *format, ...)
 {
     va_list operands;
@@ -347,3 +446,5 @@ static void refuse(contact_message *why, const char *format, ...)
     vsnprintf(why->text, sizeof why->text, format, operands);
     va_end(operands);
 }"""
+
+HEAD = f"{INCLUDES}\n\n{REFUSE}"

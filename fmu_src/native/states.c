@@ -132,7 +132,7 @@ static Status refuse(const Instance *it, const char *why) {
 
 /* The checksum finds what was damaged; this finds what was never written by an FMU. */
 static int sensible(const Moment *moment) {
-    return isfinite(moment->time) && outputs_finite(&moment->solution.outputs) && moment->phase <= STEPPING && moment->phase != CONFIGURING && moment->valid <= 1 &&
+    return isfinite(moment->time) && outputs_finite(&moment->solution.outputs) && moment->phase <= BEHIND && moment->phase != CONFIGURING && moment->valid <= 1 &&
            moment->ready <= 1 && moment->derived <= 1;
 }
 

@@ -61,7 +61,7 @@ static Status check_role(Instance *it, const Variable *v) {
                          it->host.experiment, it->host.prefix);
     if (v->role != INPUT && v->role != FIXED && v->role != TUNABLE)
         return log_error(it, "%s is an output and cannot be set.", v->name);
-    if (v->role == FIXED && it->now.phase == STEPPING)
+    if (v->role == FIXED && it->now.phase >= STEPPING)
         return log_error(it, "%s is a fixed parameter: after initialisation it cannot be set.", v->name);
     return OK;
 }
@@ -100,4 +100,5 @@ void instance_store(Instance *it, uint32_t reference, double value) {
     const Variable *v = &MODEL_VARIABLES[reference];
     if (v->role == INPUT) ((double *)&it->now.inputs)[v->place] = value;
     if (it->now.phase == SETTLED) it->now.phase = UNSETTLED;
+    if (it->now.phase == STEPPING && MODEL_FOLLOWS && v->role == INPUT) it->now.phase = BEHIND;
 }

@@ -33,6 +33,7 @@ def build(
     fmi: Version = 2,
     python: str | None = None,
     reference: bool = False,
+    here: bool = False,
 ) -> Path:
     """Write the FMU of a scene and return its path. Equal arguments and versions give equal bytes.
 
@@ -51,6 +52,8 @@ def build(
         Interpreter of an isolated FMU; default: the one that the FMU finds, see `licences.VARIABLES`.
     reference
         Add reference data, for which the contact is solved at five operating points.
+    here
+        Build a native FMU for this platform only.
 
     Raises
     ------
@@ -64,7 +67,7 @@ def build(
         **_picture(scene, fmi),
         "documentation/index.html": documentation(scene, flavour, reference, fmi),
         **(evidence.reference(scene) if reference else {}),
-        **(compiled.files(scene, fmi) if flavour == "native" else _of_slave(scene)),
+        **(compiled.files(scene, fmi, here) if flavour == "native" else _of_slave(scene)),
     }
     return pack(described(scene, flavour, fmi), variables(scene), own, out, flavour, python, fmi)
 

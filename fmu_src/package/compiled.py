@@ -14,8 +14,8 @@ from .fmi3 import VERSION
 SOURCES = "sources/"
 
 
-def files(scene: Scene, fmi: Version) -> dict[str, bytes]:
-    """Return name and content of sources and libraries.
+def files(scene: Scene, fmi: Version, here: bool = False) -> dict[str, bytes]:
+    """Return name and content of sources and libraries; `here`: of this platform only.
 
     Raises SceneError if no C can be generated for the scene, OSError if there is no compiler.
     """
@@ -23,7 +23,7 @@ def files(scene: Scene, fmi: Version) -> dict[str, bytes]:
     found = {f"{SOURCES}{name}": data for name, data in sources.items()}
     if fmi == 3:
         found[f"{SOURCES}buildDescription.xml"] = build_description(sources)
-    return found | native.binaries(sources, fmi)
+    return found | native.binaries(sources, fmi, MODEL, here)
 
 
 def to_compile(names: Iterable[str]) -> list[str]:

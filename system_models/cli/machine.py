@@ -27,7 +27,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.ssp:
         return _export(assembly, arguments.ssp, arguments.flavour or "isolated")
     folder = output_folder(arguments.out, machine.name)
-    return _run_in(folder, assembly, machine.kind, arguments.resume, arguments.unchecked)
+    return _run_in(folder, assembly, machine.kind, arguments)
 
 
 def _changes(arguments: argparse.Namespace) -> dict[str, str]:
@@ -54,21 +54,23 @@ def _export(assembly: "Assembly", path: str, flavour: "Flavour") -> int:
     return 0
 
 
-def _run_in(folder: Path, assembly: "Assembly", kind: str, resume: bool, unchecked: bool) -> int:
+def _run_in(folder: Path, assembly: "Assembly", kind: str, arguments: argparse.Namespace) -> int:
     import tempfile
 
     from .simulation import carry_out
 
+    unchecked: bool = arguments.unchecked
+    flavour: Flavour = arguments.flavour or "embedded"
     settings = {**assembly.settings, "outputs": assembly.outputs()}
     attributes = {"title": assembly.description, "checks": "left out" if unchecked else "error_coupling, resolved.nc"}
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as files:
-        system = assembly.system(Path(files))
+        system = assembly.system(Path(files), flavour, here=True)
 
         def report(dataset: "xr.Dataset", folder: Path) -> int:
             code = _report(dataset, folder, assembly, kind)
             return code if unchecked else _check(dataset, folder, assembly, system, code)
 
-        return carry_out(system, settings, assembly.name, folder, resume, report, **attributes)
+        return carry_out(system, settings, assembly.name, folder, arguments.resume, report, **attributes)
 
 
 def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:

@@ -4,12 +4,11 @@ import argparse
 
 from contact_core.errors import ContactError
 from contact_core.scene.toml import did_you_mean, shipped_scenes
+from fmu_src.flavours import FLAVOURS
 
 from ..machines import files
 from . import contact, machine
 from .scenes import add_scene
-
-_FOR_ANY_HOST = "isolated", "native"  # flavours
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -44,18 +43,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="leave out the checks of a machine's result: a simulation with double steps, and states solved again",
     )
-    parser.add_argument("--ssp", metavar="FILE.ssp", help="export a machine as SSP 1.0, do not run it")
     parser.add_argument(
         "--flavour",
-        choices=_FOR_ANY_HOST,
-        help="with --ssp: of the contacts' FMUs, as in `tribofmu build` (default: isolated); components are isolated",
+        choices=FLAVOURS,
+        help="FMUs of a machine: 'native' ones are C, built when it starts, and fast, for contacts at the regression "
+        "level; default: 'embedded', in an exported file 'isolated'",
     )
+    parser.add_argument("--ssp", metavar="FILE.ssp", help="export a machine as SSP 1.0, do not run it")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run what the command line names and return the exit code."""
-    if arguments.flavour is not None and arguments.ssp is None:
-        raise ContactError("--flavour is that of the FMUs in an .ssp file: add --ssp FILE.ssp, or leave it out.")
     if files.is_machine(arguments.scene):
         if arguments.fields is not None:
             raise ContactError(
@@ -64,6 +62,11 @@ def run(arguments: argparse.Namespace) -> int:
             )
         return machine.run(arguments)
     _check_name(arguments.scene)
+    if arguments.flavour is not None:
+        raise ContactError(
+            f"--flavour is that of the FMUs of a machine, and '{arguments.scene}' is a scene, which runs without one. "
+            "Leave it out, or build its FMU with `tribofmu build`."
+        )
     if arguments.ssp is not None:
         raise ContactError(f"'{arguments.scene}' is one contact, not a machine. Export it with `tribofmu build`.")
     return contact.run(arguments)

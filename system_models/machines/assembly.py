@@ -3,14 +3,15 @@
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
-from contact_core.quantities import TABLE
-from contact_core.scene import Scene
-from fmu_src.flavours import WITH_PYTHON, Flavour
+from contact_core.quantities import LEVELS, TABLE
+from contact_core.scene import OperatingPoint, Scene, with_values
+from fmu_src.flavours import Flavour
 from fmu_src.package.build import build as build_contact
+from fmu_src.variables import FIDELITY
 
 from ..master import System
 from ..parts.build import build as build_part
@@ -40,6 +41,14 @@ class Contact:
     scene: Scene
     parameters: Mapping[str, Value] = field(default_factory=dict)
     count: str = ""  # output with the number of contacts that it stands for, if that changes
+
+    @property
+    def own_scene(self) -> Scene:
+        """The scene with the values that its FMU is given."""
+        given: dict[str, Any] = dict(self.parameters)
+        scene = self.scene.at_level(LEVELS[int(given.pop(FIDELITY)) - 1]) if FIDELITY in given else self.scene
+        inputs: dict[str, Any] = {f.name: given.pop(f.name) for f in fields(OperatingPoint) if f.name in given}
+        return replace(with_values(scene, given), operation=replace(scene.operation, **inputs))
 
 
 @dataclass(frozen=True)
@@ -74,23 +83,27 @@ class Assembly:
         found = {f"{name}.{q.name}": q.nominal for name, part in self.parts.items() for q in part.responses}
         return found | {f"{name}.{key}": TABLE[key].nominal for name in self.contacts for key in RECORDED}
 
-    def system(self, folder: Path, flavour: Flavour = "embedded") -> System:
+    def system(
+        self, folder: Path, flavour: Flavour = "embedded", contacts: Flavour | None = None, *, here: bool = False
+    ) -> System:
         """Build the FMUs into a folder and couple them; contacts of one scene share a file.
 
-        Components are models in Python: with native contacts they are isolated. Raises ContactError for parts that do
-        not fit together, and for a contact that the flavour cannot have.
+        `contacts`: their flavour, if not that of the components. `here`: native FMUs for this platform only. Raises
+        ContactError for parts that do not fit together, and for a contact that the flavour cannot have.
         """
-        of_parts: Flavour = flavour if flavour in WITH_PYTHON else "isolated"
         proposed = {"duration": self.settings["stop_time"], "step_size": self.settings["step_size"]}
         files = {
-            name: build_part(part, folder / f"{name}.fmu", of_parts, **proposed) for name, part in self.parts.items()
+            name: build_part(part, folder / f"{name}.fmu", flavour, here=here, **proposed)
+            for name, part in self.parts.items()
         }
+        contacts = contacts or flavour
         scenes: dict[str, Path] = {}
         for name, contact in self.contacts.items():
-            key = json.dumps(contact.scene.to_dict(), sort_keys=True)
+            scene = contact.own_scene if contacts == "native" else contact.scene  # native FMUs take no parameters
+            key = json.dumps(scene.to_dict(), sort_keys=True)
             if key not in scenes:
                 short = hashlib.sha256(key.encode()).hexdigest()[:8]
-                scenes[key] = build_contact(contact.scene, folder / f"contact_{short}.fmu", flavour)
+                scenes[key] = build_contact(scene, folder / f"contact_{short}.fmu", contacts, here=here)
             files[name] = scenes[key]
         own = {f"{name}.{key}": value for name, c in self.contacts.items() for key, value in c.parameters.items()}
         return System(files, self.connections, {**self.parameters, **own}, self.schedule)

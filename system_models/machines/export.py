@@ -3,17 +3,14 @@
 Not every importer gives the FMUs the parameters of the system: each starts with its own.
 """
 
-from dataclasses import fields, replace
-from typing import Any
+from dataclasses import replace
 
 from contact_core.errors import ContactError
-from contact_core.quantities import LEVELS, numbers
-from contact_core.scene import OperatingPoint, Scene, with_values
-from fmu_src.variables import FIDELITY
+from contact_core.quantities import numbers
 
 from ..parts.part import Start
 from ..parts.timetable import Entry, Signal, Timetable
-from .assembly import Assembly, Contact, Schedule, Value
+from .assembly import Assembly, Schedule, Value
 
 _DUTY = "duty"
 
@@ -39,7 +36,7 @@ def with_timetable(assembly: Assembly) -> Assembly:
     return replace(
         assembly,
         parts={**started, **({_DUTY: Timetable(tuple(signals))} if signals else {})},
-        contacts={name: replace(contact, scene=_with_values(contact)) for name, contact in assembly.contacts.items()},
+        contacts={name: replace(contact, scene=contact.own_scene) for name, contact in assembly.contacts.items()},
         connections=(*assembly.connections, *links),
         parameters={**assembly.parameters, **constant},
         schedule={},
@@ -50,11 +47,3 @@ def _starts(part: str, schedule: Schedule) -> tuple[Start, ...]:
     """Return the inputs of a part that the duty sets, as it does at first."""
     first = ((name.partition("."), steps[0][1]) for name, steps in schedule.items())
     return tuple(Start(variable, float(value)) for (owner, _, variable), value in first if owner == part)
-
-
-def _with_values(contact: Contact) -> Scene:
-    """Return the scene with the values that its FMU is given."""
-    given: dict[str, Any] = dict(contact.parameters)
-    scene = contact.scene.at_level(LEVELS[int(given.pop(FIDELITY)) - 1]) if FIDELITY in given else contact.scene
-    inputs: dict[str, Any] = {f.name: given.pop(f.name) for f in fields(OperatingPoint) if f.name in given}
-    return replace(with_values(scene, given), operation=replace(scene.operation, **inputs))

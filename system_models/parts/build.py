@@ -4,14 +4,14 @@ import inspect
 from collections.abc import Iterator
 from pathlib import Path
 
-from contact_core.errors import SceneError
-from fmu_src.flavours import WITH_PYTHON, Flavour
+from fmu_src.flavours import Flavour
+from fmu_src.native.files import binaries
 from fmu_src.package.build import pack
 from fmu_src.package.describe import Model
 from fmu_src.package.document.markup import paragraph, plain, table
 from fmu_src.variables import Variable
 
-from . import resources
+from . import native, resources
 from .part import Part
 from .variables import variables
 
@@ -24,25 +24,31 @@ def build(
     python: str | None = None,
     duration: float = 1.0,
     step_size: float = 1e-2,
+    here: bool = False,
 ) -> Path:
     """Write the FMU of a component to `out` and return it. The same arguments and versions give the same bytes.
 
     `flavour` and `python`: as for a contact, see `fmu_src.package.build`. `duration` and `step_size` [s] are
-    proposals to its host. Raises SceneError if the component's numbers cannot be used or the flavour is native, OSError
-    if the file cannot be written.
+    proposals to its host; `here`: a native FMU for this platform only. Raises SceneError if the component's numbers
+    cannot be used or it has no C, OSError if the file cannot be written or there is no compiler.
     """
-    if flavour not in WITH_PYTHON:
-        raise SceneError(
-            f"flavour = '{flavour}' is for contacts; components are models in Python: take {' or '.join(WITH_PYTHON)}."
-        )
     resources.check(part)
     experiment = {"startTime": 0.0, "stopTime": duration, "stepSize": step_size}
     own = {
         "documentation/index.html": "\n".join(_page(part, variables(part))).encode(),
-        **{f"resources/{name}": data for name, data in resources.files(part).items()},
+        **_files(part, flavour, here),
     }
     model = Model(part.name, resources.guid(part, flavour), part.text, experiment)
     return pack(model, variables(part), own, out, flavour, python)
+
+
+def _files(part: Part, flavour: Flavour, here: bool) -> dict[str, bytes]:
+    """Return name and content of what makes the component run."""
+    if flavour != "native":
+        return {f"resources/{name}": data for name, data in resources.files(part).items()}
+    sources = native.sources(part, resources.guid(part, flavour))
+    libraries = binaries(sources, 2, part.name, here)
+    return {f"sources/{name}": data for name, data in sources.items()} | libraries
 
 
 def _page(part: Part, listed: tuple[Variable, ...]) -> Iterator[str]:

@@ -28,8 +28,19 @@ def _propagators(matrix: Matrix, entry: Matrix, step: float) -> tuple[Array, Arr
 
     Van Loan, C.F., IEEE Trans. Autom. Control 23 (1978) 395, doi 10.1109/TAC.1978.1101743
     """
+    size = len(matrix)
+    found = exponential(_block(matrix, entry) * step)
+    return found[:size, :size], found[:size, size:]
+
+
+def _block(matrix: Matrix, entry: Matrix) -> Array:
     size, width = len(matrix), len(entry[0])
     whole = np.zeros((size + width, size + width))
-    whole[:size] = np.hstack([matrix, entry]) * step
-    exponential = expm(whole)
-    return exponential[:size, :size], exponential[:size, size:]
+    whole[:size] = np.hstack([matrix, entry])
+    return whole
+
+
+def exponential(matrix: Array) -> Array:
+    """Return the exponential of a matrix [n, n]."""
+    found: Array = expm(matrix)
+    return found

@@ -1,6 +1,5 @@
 """Signals against time as a component, for importers of SSP, which know no schedule."""
 
-import bisect
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -58,6 +57,9 @@ class Timetable(Part):
         now = state[0] * (1.0 + 1e-9)
         found = {}
         for signal in self.signals:
-            times = [entry.time for entry in signal.entries]
-            found[signal.name] = signal.entries[max(bisect.bisect_right(times, now) - 1, 0)].value
+            value = signal.entries[0].value
+            for entry in signal.entries[1:]:
+                if entry.time <= now:
+                    value = entry.value
+            found[signal.name] = value
         return found

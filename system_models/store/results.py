@@ -3,6 +3,7 @@
 import csv
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -34,17 +35,20 @@ def with_half_widths(dataset: xr.Dataset) -> xr.Dataset:
     That of `h_c` is `h_c_error`, that of `mesh.h_c` is `mesh.h_c_error`; the attribute `ancillary_variables` of the
     output names it (CF conventions, 3.4).
     """
-    found = dataset.copy()
-    for name, variable in dataset.data_vars.items():
+    halves: dict[str, tuple[Any, ...]] = {}  # assigned at once: xarray copies all variables each time
+    for name in dataset.data_vars:
+        variable = dataset.variables[name]
         prefix, output = str(name).rpartition(".")[::2]
         stated = STATED.get(output, "")
         source = f"{prefix}.{stated}" if prefix else stated
         if stated and source in dataset:
-            half = dataset[source].values * (1.0 if stated in ABSOLUTE else np.abs(variable.values))
+            half = dataset.variables[source].values * (1.0 if stated in ABSOLUTE else np.abs(variable.values))
             text = f"half width (95 %) of the error of {name}"
             attributes = {"units": variable.attrs.get("units", "1"), "long_name": text}
-            found = found.assign_coords({f"{name}{ERROR}": (variable.dims, half, attributes)})
-            found[name].attrs["ancillary_variables"] = f"{name}{ERROR}"
+            halves[str(name)] = (variable.dims, half, attributes)
+    found = dataset.assign_coords({f"{name}{ERROR}": half for name, half in halves.items()})
+    for name in halves:
+        found.variables[name].attrs["ancillary_variables"] = f"{name}{ERROR}"
     return found
 
 

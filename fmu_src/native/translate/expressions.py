@@ -77,8 +77,14 @@ class Expressions:
                 items = [*items[:at], items[at : len(items) - rest], *items[len(items) - rest :]]
             for each, item in zip(target.elts, items, strict=True):
                 self.bind(each.value if isinstance(each, ast.Starred) else each, item)
+        elif isinstance(target, ast.Subscript) and isinstance(target.value, ast.Name) and self._is_entry(target):
+            owner, key = target.value.id, self.value(target.slice)
+            self.names[owner] = {**self.lookup(owner), key: self.unit.named(str(key), value)}
         else:
             raise Untranslatable(f"an assignment to {ast.unparse(target)}: bind a name instead")
+
+    def _is_entry(self, target: ast.Subscript) -> bool:
+        return isinstance(self.value(target.value), dict) and not is_dynamic(self.value(target.slice))
 
     def truth(self, value: Any) -> Any:
         """Return True or False, or a number at run time that is one of them."""
@@ -335,7 +341,7 @@ class Expressions:
             owner = self.value(node.func.value)
             method = ARRAY_METHODS.get(node.func.attr)
             if method and (isinstance(owner, np.ndarray) and is_dynamic(owner)):
-                return method(owner)
+                return method(owner, *operands, **named)
             function = self.translator.attribute(self.unit, owner, node.func.attr)
         else:
             function = self.value(node.func)

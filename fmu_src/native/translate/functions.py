@@ -5,7 +5,7 @@ import functools
 import inspect
 import re
 import types
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,7 +20,9 @@ from .sources import about, closure_of, expression_of, is_straight, method_after
 from .units import Text, Unit, matched, template_of, unique
 from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
 
+_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 _CORE, _LAWS = "contact_core.", "contact_core.laws."
+_PARTS = "system_models."
 _UNREAD = "unread_"  # stands, with a number, for a member that nothing reads in the end
 _GIVEN = "given_"  # stands, with its place, for a member that is always the same one of those that a function takes
 
@@ -41,26 +43,42 @@ class CFunction:
 class Entry:
     """A C function to be called from outside."""
 
-    name: str
+    name: str  # empty: there is nothing to compute
     takes: list[Num]
-    result: Any  # its numbers at run time are members of the struct that it returns
+    result: Any  # its numbers at run time are members of the struct that it returns; without a name, what it takes
     may_fail: bool
 
-    def called(self, inputs: Sequence[str]) -> str:
+    @property
+    def returns(self) -> int:
+        """How many numbers it returns; one is no struct."""
+        return len(list(leaves(self.result))) if self.name else 0
+
+    @staticmethod
+    def place(number: Num, inputs: Sequence[str], constants: Collection[str] = ()) -> str:
+        """Return a number that it takes."""
+        if number.text == "dt" or number.text in constants:
+            return number.text
+        return f"{'in' if number.text in inputs else 'state'}->{number.text}"
+
+    def called(self, inputs: Sequence[str], constants: Collection[str] = ()) -> str:
         """Return the call, with inputs and state from structs `in` and `state`."""
-        given = [
-            number.text if number.text == "dt" else f"{'in' if number.text in inputs else 'state'}->{number.text}"
-            for number in self.takes
-        ]
+        given = [self.place(number, inputs, constants) for number in self.takes]
         return f"{self.name}({', '.join([*given, *(['why'] if self.may_fail else [])])})"
 
 
 class Translator:
     """Writes the C functions of a program."""
 
-    def __init__(self, reads: Mapping[Any, set[str]] | None = None) -> None:
-        """Begin a program; `reads`: members that are read of the structs of functions, where that is known."""
+    def __init__(
+        self, reads: Mapping[Any, set[str]] | None = None, instead: Mapping[Any, types.FunctionType] | None = None
+    ) -> None:
+        """Begin a program.
+
+        reads: members that are read of the structs of functions, where that is known. instead: functions of scalars
+        that stand for others, of arrays.
+        """
         self._reads = reads or {}
+        self._instead = instead or {}
         self.functions: list[tuple[str, str]] = []  # names and texts, each after those that it calls
         self._cache: dict[Any, CFunction] = {}
         self._names: set[str] = set()
@@ -76,6 +94,8 @@ class Translator:
         found = self._function(closure, bound, hands_on=False)
         given = distinct((bound, closure))
         takes = [number for number, used in zip(given, found.used, strict=True) if used]
+        if found.forward is not None:
+            return Entry("", [], filled(found.template, _handed_on(found.forward, given)), False)
         members = [Num(field, hole.kind) for field, hole in zip(found.fields, holes_in(found.template), strict=True)]
         return Entry(found.name, takes, filled(found.template, members), found.may_fail)
 
@@ -84,7 +104,7 @@ class Translator:
         needed, kept = {entry.name for entry in entries}, []
         for name, text in reversed(self.functions):
             if name in needed:
-                needed |= code.names_in(text)
+                needed |= code.names_in(_COMMENT.sub("", text))
                 kept.append((name, text))
         return code.merged(kept[::-1])
 
@@ -98,7 +118,7 @@ class Translator:
             for struct, name in re.findall(r"const struct (\w+)\s+(\w+)\s+=", text):
                 found.setdefault(self._keys[struct], set()).update(re.findall(rf"\b{name}\.(\w+)", text))
         for entry in entries:
-            found.pop(self._keys[entry.name], None)
+            found.pop(self._keys.get(entry.name), None)
         return found
 
     def missed(self, texts: Sequence[str]) -> list[tuple[Any, str]]:
@@ -151,6 +171,7 @@ class Translator:
         if isinstance(function, Closure):
             closure = function
         else:
+            function = self._instead.get(function, function)
             if not is_dynamic(operands) and not is_dynamic(named):
                 return function(*operands, **named)
             closure = closure_of(function)
@@ -198,10 +219,7 @@ class Translator:
                 given[place] = unit.let(name or "given", given[place])
         template = replaced(found.template, lambda hole: _own(hole, given))
         if found.forward is not None:
-            return filled(
-                template,
-                [given[each] if isinstance(each, int) else Num(each, binds=UNARY) for each in found.forward],
-            )
+            return filled(template, _handed_on(found.forward, given))
         texts = [number.text for number, used in zip(given, found.used, strict=True) if used]
         if found.may_fail:
             texts.append("why")
@@ -361,7 +379,12 @@ def _own(hole: Num, given: list[Num]) -> Num:
 
 def _is_elementwise(function: types.FunctionType) -> bool:
     """Return True for functions of laws, also a user's own: what they say of a number they say of each of an array."""
-    return function.__module__.startswith(_LAWS) or not function.__module__.startswith(_CORE)
+    return function.__module__.startswith(_LAWS) or not function.__module__.startswith((_CORE, _PARTS))
+
+
+def _handed_on(forward: Sequence[int | str], given: Sequence[Num]) -> list[Num]:
+    """Return the numbers of a function that only hands on."""
+    return [given[each] if isinstance(each, int) else Num(each, binds=UNARY) for each in forward]
 
 
 def _alike(texts: list[str]) -> tuple[int, ...]:

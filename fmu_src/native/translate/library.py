@@ -188,6 +188,10 @@ _NAMED: dict[str, tuple[Handler, ...]] = {
     "own_tanh": (math.tanh, np.tanh, elementary.tanh),
     "own_asinh": (math.asinh, np.arcsinh),
     "own_hypot": (math.hypot, np.hypot),
+    "cos": (math.cos, np.cos),
+    "sin": (math.sin, np.sin),
+    "atan2": (math.atan2, np.arctan2),
+    "cbrt": (np.cbrt,),
     "fabs": (abs, np.abs, np.fabs),
 }
 
@@ -233,10 +237,30 @@ HANDLERS: dict[Any, Handler] = {
 # of numbers that are known, too: lists in place of iterators that end, numbers in place of arrays without a shape
 ALWAYS = {builtins.zip, builtins.enumerate, np.zeros_like, np.ones_like, np.full_like}
 
+
+def _along(function: Handler) -> Handler:
+    """Return a function of the items of an array: of all, or with axis = -1 of those along the last axis."""
+
+    def reduced(array: Any, axis: int | None = None, where: Any = True, initial: Any = None) -> Any:
+        if initial is not None:
+            array = _where(where, array, initial)
+            return function([initial, *array.flat])
+        if axis is None:
+            return function(list(array.flat))
+        if axis != -1:
+            raise Untranslatable(f"axis = {axis}: only the last one is needed so far")
+        found = np.empty(array.shape[:-1], object)
+        for place in np.ndindex(found.shape):
+            found[place] = function(list(array[place]))
+        return found
+
+    return reduced
+
+
 ARRAY_METHODS: dict[str, Handler] = {
-    "max": lambda array: _of_many(maximum)(list(array.flat)),
-    "min": lambda array: _of_many(minimum)(list(array.flat)),
-    "sum": lambda array: _sum(list(array.flat)),
+    "max": _along(_of_many(maximum)),
+    "min": _along(_of_many(minimum)),
+    "sum": _along(_sum),
     "any": _any,
     "all": _all,
     "tolist": lambda array: array.tolist(),

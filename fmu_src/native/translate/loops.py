@@ -16,7 +16,8 @@ def counted(scope: Names, node: ast.For, items: range) -> None:
     """Write a loop over a range."""
     assert isinstance(node.target, ast.Name)
     name = scope.unit.fresh(node.target.id)
-    head = f"for (int {name} = {items.start}; {name} < {items.stop}; {name} += {items.step})"
+    before = "<" if items.step > 0 else ">"
+    head = f"for (int {name} = {items.start}; {name} {before} {items.stop}; {name} += {items.step})"
     scope.names[node.target.id] = Num(name, "i")
     _loop(scope, head, node.body, lambda: False)
     scope.names.pop(node.target.id, None)
@@ -107,7 +108,8 @@ def _wider(name: str, form: Any, values: Iterable[Any]) -> Any:
 def _bound(body: list[ast.stmt]) -> list[str]:
     """Return the names that statements bind, in order."""
     nodes = (node for statement in body for node in ast.walk(statement))
-    return list(dict.fromkeys(x.id for x in nodes if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)))
+    names = (x.id for x in nodes if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store))
+    return list(dict.fromkeys(name for name in names if name != "_"))  # which nobody reads
 
 
 def _variables(unit: Unit, name: str, form: Any) -> Any:

@@ -2,6 +2,7 @@
 
 import ast
 import functools
+import re
 from typing import Any
 
 from . import code
@@ -36,7 +37,7 @@ def fields_of(template: Any, names: list[str]) -> list[str]:
         if place.isdigit():
             first = names[int(place)] if int(place) < len(names) else _ordinal(int(place))
             own = "_".join([first, *(str(int(part) + 1) for part in rest)])
-        found.append(unique(own or "value", KEYWORDS.union(found)))
+        found.append(unique(re.sub(r"\W+", "_", own).strip("_") or "value", KEYWORDS.union(found)))
     return found
 
 

@@ -1,6 +1,6 @@
 """A ball bearing as a component: forces and speed out to the classes of its contacts, friction and heat back."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
@@ -12,8 +12,8 @@ from contact_core.quantities import TABLE, parameter
 
 from ...parts.part import Input, Output, Part, State, Values, indexed
 from .equilibrium import Equilibrium, RingLoads, solve
-from .geometry import RACES, BallBearingGeometry, RaceName
-from .kinematics import motion
+from .geometry import RACES, BallBearingGeometry, Race, RaceName
+from .kinematics import Motion, motion
 from .load_classes import Classes, classify, track_lengths
 
 Array = NDArray[np.float64]
@@ -96,6 +96,13 @@ class BallBearing(Part):
     standstill: float = parameter(
         "rad/s", "speed below which friction goes over to that at rest", above=0.0, most=10.0, default=0.1
     )
+
+    @classmethod
+    def instead(cls) -> Mapping[Any, Callable[..., Any]]:
+        """Equilibrium and load classes with scalars."""
+        from .scalars import INSTEAD  # which needs this module
+
+        return INSTEAD
 
     def check(self) -> None:
         """Raise SceneError if the dimensions do not go together."""
@@ -203,10 +210,12 @@ class BallBearing(Part):
     def _at(self, loads: RingLoads, speed: float, start: State | None = None) -> Equilibrium:
         return solve(self.dimensions, loads, speed, start, self.first_ball, self.tilt_stiffness)
 
-    def _classes(self, rest: Equilibrium) -> Iterator[tuple[RaceName, Classes]]:
-        for race, loads in zip(RACES, (rest.load_inner, rest.load_outer), strict=True):
-            moving = motion(self.dimensions, rest, race)
-            yield race, classify(self.dimensions, self.dimensions.race(race), loads, moving, self.levels)
+    def _classes(self, rest: Equilibrium) -> list[tuple[RaceName, Classes]]:
+        loads: dict[RaceName, Array] = {"inner": rest.load_inner, "outer": rest.load_outer}
+        return [(race, self._of_race(race, loads[race], motion(self.dimensions, rest, race))) for race in RACES]
+
+    def _of_race(self, race: RaceName, loads: Array, moving: Motion) -> Classes:
+        return classify(self.dimensions, self.dimensions.race(race), loads, moving, self.levels)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
         """Return the value of each of `responses`, for the inputs as they are."""
@@ -264,13 +273,11 @@ class BallBearing(Part):
         """Return the bearing as a whole, and each ball."""
         driven, inner, outer = rest.load_inner > 0.0, self.dimensions.inner, self.dimensions.outer
         largest = float(rest.load_inner.max()), float(rest.load_outer.max())
-        pressures = [
-            race.ellipse(load).pressure_max for race, load in zip((inner, outer), largest, strict=True) if load
-        ]
+        pressures = [pressure(race, load) for race, load in zip((inner, outer), largest, strict=True)]
         return {
             "cage_speed": rest.cage * speed,
             "load_max": max(largest),
-            "pressure_max": max(pressures, default=0.0),
+            "pressure_max": max(pressures),
             "contact_angle_inner": float(np.abs(rest.angle_inner).max(where=driven, initial=0.0)),
             "contact_angle_outer": float(np.abs(rest.angle_outer).max(where=rest.load_outer > 0.0, initial=0.0)),
             **{f"displacement_{axis}": value for axis, value in zip("xyz", rest.displacement, strict=True)},
@@ -280,6 +287,11 @@ class BallBearing(Part):
             **{indexed("load_ball_inner", j): load for j, load in enumerate(rest.load_inner.tolist(), 1)},
             **{indexed("load_ball_outer", j): load for j, load in enumerate(rest.load_outer.tolist(), 1)},
         }
+
+
+def pressure(race: Race, load: float) -> float:
+    """Return the largest pressure [Pa] of a contact under a load [N] >= 0."""
+    return race.ellipse(load).pressure_max if load else 0.0
 
 
 def _alike(name: str, race: RaceName, k: int, nominal: float) -> dict[str, Any]:

@@ -6,12 +6,12 @@ from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from contact_core.errors import SceneError
 from contact_core.quantities import parameter
 
+from ...parts.linear import exponential
 from ...parts.part import Input, Output, Part, State, Values
 from .geometry import SpurGearPair
 
@@ -108,7 +108,7 @@ class GearShafts(Part):
         scale = np.array([self.pair.base_radius_1, self.pair.base_radius_2, self._frequency])
         kept, pushed = _step(self, step)
         after = kept @ (scale * state) + pushed @ self._outer(inputs)
-        return tuple(map(float, after / scale))
+        return tuple((after / scale).tolist())
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
         """Return the value of each of `responses`."""
@@ -149,6 +149,12 @@ def _step(shafts: GearShafts, step: float) -> tuple[Array, Array]:
 
     All three are of one size; Loan's block matrix gives both: doi:10.1109/TAC.1978.1101743.
     """
+    found = exponential(_rates(shafts) * step)
+    return found[:3, :3], found[:3, 3:]
+
+
+def _rates(shafts: GearShafts) -> Array:
+    """Return the matrix of the rates of change, with the outer torques as its last columns."""
     levers = np.array([shafts.pair.base_radius_1, shafts.pair.base_radius_2])
     inertias, drags = np.array([shafts.inertia_1, shafts.inertia_2]), np.array([shafts.coupling, shafts.drag])
     rates = np.zeros((5, 5))
@@ -157,5 +163,4 @@ def _step(shafts: GearShafts, step: float) -> tuple[Array, Array]:
     rates[:2, :3] += np.outer(levers**2 / inertias * (-1.0, 1.0), force)
     rates[2, :2] = shafts._frequency, -shafts._frequency
     rates[:2, 3:] = np.diag(levers / inertias)
-    found = scipy.linalg.expm(rates * step)
-    return found[:3, :3], found[:3, 3:]
+    return rates

@@ -1,0 +1,51 @@
+"""Machines with native FMUs: the answers of those in Python, and no Python in an exported file."""
+
+import io
+import shutil
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy.ssp.simulation import simulate_ssp
+
+from fmu_src.native import build as native_build
+from system_models.machines import reading
+from system_models.machines.export import with_timetable
+from system_models.master import export_ssp, simulate
+
+pytestmark = [pytest.mark.systems, pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")]
+
+FEW = {"mesh.stations": "4"}
+END, STEP = 20.0, 0.1  # s
+SAME = 1e-7  # of the largest value: rounding, after some hundred steps
+
+
+@pytest.fixture(autouse=True)
+def gcc(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Build with gcc: for this platform alone it is as good."""
+    monkeypatch.setattr(native_build, "default_compiler", lambda: "gcc")
+
+
+def test_a_native_gear_pair_answers_as_the_python_and_is_exported_without_it(tmp_path: Path) -> None:
+    """In the master, and as SSP in fmpy: its contacts, too, have the values of their stations."""
+    assembly = reading.assemble(reading.read("gear_fzg_c", FEW))
+    runs = []
+    for flavour in ("embedded", "native"):
+        system = assembly.system(tmp_path / flavour, flavour, here=True)
+        runs.append(simulate(system, END, STEP, algorithm="gauss_seidel", outputs=assembly.outputs()))
+    python, native = runs
+    for name in python.data_vars:
+        expected, found = (run[name].values.astype(float) for run in (python, native))
+        assert np.abs(expected - found).max() <= SAME * np.abs(expected).max(), name
+    timed = with_timetable(assembly)
+    file = export_ssp(timed.system(tmp_path / "ssp", "native", here=True), tmp_path / "gear.ssp", 1.0, 0.1)
+    with zipfile.ZipFile(file) as archive:
+        fmus = [name for name in archive.namelist() if name.endswith(".fmu")]
+        assert len(fmus) == len(timed.parts) + len(timed.contacts)
+        for name in fmus:
+            inside = zipfile.ZipFile(io.BytesIO(archive.read(name))).namelist()
+            assert not [each for each in inside if each.endswith(".py") or each.startswith("resources/")], name
+    rows = simulate_ssp(str(file), stop_time=1.0, step_size=0.1)
+    assert rows["flank_02.friction_force"][-1] != 0.0
+    assert rows["flank_02.valid"][-1]
