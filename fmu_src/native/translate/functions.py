@@ -15,7 +15,19 @@ from . import code
 from .arrays import arrays_in, on_arrays
 from .expressions import Super
 from .interpreter import Scope
-from .results import distinct, fields_of, filled, forwarded, handed_on, holes_in, part_names, wanted_fields
+from .results import (
+    distinct,
+    fields_of,
+    filled,
+    forwarded,
+    given_places,
+    handed_on,
+    holes_in,
+    part_names,
+    wanted_fields,
+    with_alike,
+    with_given,
+)
 from .sources import about, closure_of, expression_of, is_straight, method_after, statements_of
 from .units import Text, Unit, matched, template_of, unique
 from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
@@ -24,7 +36,6 @@ _COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 _CORE, _LAWS = "contact_core.", "contact_core.laws."
 _PARTS = "system_models."
 _UNREAD = "unread_"  # stands, with a number, for a member that nothing reads in the end
-_GIVEN = "given_"  # stands, with its place, for a member that is always the same one of those that a function takes
 
 
 @dataclass
@@ -213,11 +224,12 @@ class Translator:
 
     def _called(self, unit: Unit, found: CFunction, given: list[Num]) -> Any:
         given = list(given)
-        for name, hole in leaves(found.template):
-            if hole.text.startswith(_GIVEN):  # used again after the call
-                place = int(hole.text.removeprefix(_GIVEN))
-                given[place] = unit.let(name or "given", given[place])
-        template = replaced(found.template, lambda hole: _own(hole, given))
+        for name, place in given_places(found.template):  # used again after the call
+            given[place] = unit.let(name or "given", given[place])
+        return with_alike(self._made(unit, found, given))
+
+    def _made(self, unit: Unit, found: CFunction, given: list[Num]) -> Any:
+        template = with_given(found.template, given)
         if found.forward is not None:
             return filled(template, _handed_on(found.forward, given))
         texts = [number.text for number, used in zip(given, found.used, strict=True) if used]
@@ -303,7 +315,7 @@ class Translator:
                 raise Untranslatable(f"{closure.path} always refuses")
             template = template_of(first.returned)
             if hands_on:
-                template = handed_on(template, first.returned, parameters, _GIVEN)
+                template = handed_on(template, first.returned, parameters)
             self._cache[key] = self._finished(name, closure, bound, template)
         return self._cache[key]
 
@@ -370,11 +382,6 @@ class Translator:
         lines = [*code.comment(about(closure)), *head, "{", *code.printed(block), "}"]
         self.functions.append((name, "\n".join(lines)))
         return CFunction(name, used, template, fields, unit.may_fail)
-
-
-def _own(hole: Num, given: list[Num]) -> Num:
-    """Return what a caller gave where a function hands that on."""
-    return given[int(hole.text.removeprefix(_GIVEN))] if hole.text.startswith(_GIVEN) else hole
 
 
 def _is_elementwise(function: types.FunctionType) -> bool:
