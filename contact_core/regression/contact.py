@@ -201,7 +201,7 @@ def _point(
         area * touching * shear,
         area,
         oily,
-        shares.raised * largest,
+        parted.oil_pressure,
         rubbing / shares.gap,
         abs(float(boundary.grip(rubbing))),
     )

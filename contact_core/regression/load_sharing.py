@@ -79,6 +79,7 @@ class Parted(NamedTuple):
     rough: float  # height over which the oil flows [m]
     dry_area: float
     raised: float  # pressure of the oil over Hertz's
+    oil_pressure: float  # largest of the oil that carries load [Pa]
 
 
 def parted(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, float]) -> Parted:
@@ -104,14 +105,16 @@ def parted(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, floa
     density: Law = scene.lubricant.density
     rough = max(surfaces.solid, surfaces.layer)  # tribofilms fill what they part
     dense = film / rough / float(density(hertz.mean_share * pressure))
-    raised = sharing.oil_pressure(clearance, flattening, *case.shape.depths(film, half, wide * hertz.b))
+    carrying = sharing.oil_pressure(clearance, flattening, *case.shape.depths(film, half, wide * hertz.b))
+    raised = min(carrying, scene.plasticity.hardness / pressure)  # no pressure is above the hardness
     return Parted(
         fit,
         sharing.parting(clearance, fit.layers, flattening, below, fit.pressed),
         sharing.films(dense, flattening, surfaces.layer / rough),
         rough,
         sharing.dry_area(flattening, below),
-        min(raised, scene.plasticity.hardness / pressure),  # no pressure is above the hardness
+        raised,
+        raised * pressure,
     )
 
 

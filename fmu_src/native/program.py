@@ -344,7 +344,7 @@ def calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple
 
     called = entry.called(inputs, TRACKS.values()) if entry.name else ""
     found = f"const {f'struct {entry.name}' if entry.returns > 1 else 'double'} found = {called};"
-    calls = wrapped(found if entry.returns else f"{called};", 1) if entry.name else []
+    calls = wrapped(found if entry.returns else f"{called};", 1) if entry.returns or entry.may_fail else []
     refuses = ["    if (why->text[0] != '\\0') {", "        return 1;", "    }"] if entry.may_fail else []
     body = f"{called} {' '.join(text(value) for _, value in sets)}"
     given = re.findall(r"(\w+)[,)]", f"{head})")
