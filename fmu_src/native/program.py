@@ -26,7 +26,7 @@ from contact_core.surfaces.track_means import means_of
 
 from ..variables import Variable, variables
 from .names import c_name
-from .translate import Entry, Num, Translator, Untranslatable, is_number, literal, parts
+from .translate import Entry, Num, Translator, Untranslatable, is_number, literal, parts, wrapped
 
 Found = tuple[ContactState, Outputs]
 
@@ -343,7 +343,8 @@ def calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple
         return f"found.{value.text}" if entry.returns > 1 else "found"
 
     called = entry.called(inputs, TRACKS.values()) if entry.name else ""
-    calls = [f"    const {f'struct {entry.name}' if entry.returns > 1 else 'double'} found = {called};"]
+    found = f"const {f'struct {entry.name}' if entry.returns > 1 else 'double'} found = {called};"
+    calls = wrapped(found if entry.returns else f"{called};", 1) if entry.name else []
     refuses = ["    if (why->text[0] != '\\0') {", "        return 1;", "    }"] if entry.may_fail else []
     body = f"{called} {' '.join(text(value) for _, value in sets)}"
     given = re.findall(r"(\w+)[,)]", f"{head})")
@@ -360,7 +361,7 @@ def calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple
         "{",
         *(f"    (void){name};" for name in unread),
         "    why->text[0] = '\\0';",
-        *(calls if entry.returns else []),
+        *calls,
         *refuses,
         *(f"    {target} = {text(value)};" for target, value in sets),
         "    return 0;",

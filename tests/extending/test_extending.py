@@ -2,6 +2,7 @@
 
 import csv
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -123,6 +124,25 @@ print(json.dumps(found))
     assert mean == approx(coverage * closed, rel=0.02)  # of the part of the track that is rubbed, which grows a little
     assert mean == approx(found["step"], rel=1e-3)
     assert 0.0 < found["deterministic"][0] < closed
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
+def test_the_law_is_in_the_c_of_a_native_fmu(tree: Tree) -> None:
+    found = found_by(
+        tree,
+        f"""
+import sys
+from pathlib import Path
+sys.path.append({str(ROOT)!r})
+from benchmarks.fmu.native_contact import NativeContact, differences
+scene = scene_of(tribofilm__set="quinn_80c").at_level("regression")
+contact = NativeContact(scene, Path.cwd())
+print(json.dumps(["quinn_evolve" in contact.sources["contact.c"], differences(scene, contact, 2, 5)]))
+""",
+    )
+    written, differences = found
+    assert written
+    assert differences["tribofilm_2"] < 1e-9
 
 
 def test_the_law_is_in_the_fmu_and_law_and_output_are_in_the_results(tree: Tree) -> None:

@@ -4,10 +4,11 @@ import re
 import shutil
 import sys
 
-import native_scenes
 import pytest
-from native_contact import NativeContact, bits, differences, tolerance
+from mapped_scene import mapped_scene
 
+from benchmarks.fmu import native_scenes
+from benchmarks.fmu.native_contact import NativeContact, bits, differences, tolerance
 from contact_core import Scene
 from contact_core.errors import SceneError
 from fmu_src.native import files
@@ -23,6 +24,12 @@ ZIG = (sys.executable, "-m", "ziglang", "cc", "-O2")
 def test_c_does_what_python_does(changes, tmp_path):
     scene = native_scenes.scene_of(changes)
     found = differences(scene, NativeContact(scene, tmp_path), RUNS, STEPS)
+    assert {name: wrong for name, wrong in found.items() if not wrong <= tolerance(name)} == {}
+
+
+def test_c_does_what_python_does_by_a_map(tmp_path):
+    scene = mapped_scene(tmp_path)
+    found = differences(scene, NativeContact(scene, tmp_path), 2, STEPS)
     assert {name: wrong for name, wrong in found.items() if not wrong <= tolerance(name)} == {}
 
 
@@ -49,6 +56,15 @@ def test_inputs_that_the_contact_cannot_have_are_refused(ball, changed, said):
     assert re.search(said, contact.step(inputs | changed, 1.0))
     assert (list(contact.state), list(contact.outputs)) == before
     assert not contact.step(inputs, 1.0)
+
+
+@pytest.mark.parametrize("changed", [{"radius_x": 9.6e-3}, {"temperature": 300.0}])
+def test_derivatives_are_refused_as_steps_are(ball, changed):
+    scene, contact = ball
+    inputs = native_scenes.inputs_of(scene)
+    assert not contact.initialise(inputs)
+    assert not contact.derivatives(inputs)
+    assert next(iter(changed)) in contact.derivatives(inputs | changed)
 
 
 def test_radii_may_be_rounded_in_other_units(ball):

@@ -232,6 +232,26 @@ def test_messages_of_errors_are_those_of_python(tmp_path):
         assert in_c(*pair) == str(error.value)
 
 
+def careless(x, y):
+    _ = refusing(x, y)
+    __, ___ = both(x, y)
+    return x - y
+
+
+def both(x, y):
+    refusing(y, x + 5.0)
+    return x * 2.0, y * 2.0
+
+
+def test_an_error_of_a_call_whose_result_nothing_reads_is_kept(tmp_path):
+    in_c = translated(tmp_path, careless, unknown(2))
+    assert in_c(1.0, 2.0) == -1.0
+    for pair in ((3.5, 2.0), (1.0, 7.0)):
+        with pytest.raises(ValueError, match=r".") as error:
+            careless(*pair)
+        assert in_c(*pair) == str(error.value)
+
+
 def unending(x, y):
     while x > 0.0:
         x = x + 1.0

@@ -15,7 +15,19 @@
 Nothing here knows contacts: `fmu_src.native.program` says what is written.
 """
 
+from .code import wrapped
 from .functions import Entry, Translator
 from .values import Num, Untranslatable, is_number, leaves, literal, parts, replaced
 
-__all__ = ["Entry", "Num", "Translator", "Untranslatable", "is_number", "leaves", "literal", "parts", "replaced"]
+__all__ = [
+    "Entry",
+    "Num",
+    "Translator",
+    "Untranslatable",
+    "is_number",
+    "leaves",
+    "literal",
+    "parts",
+    "replaced",
+    "wrapped",
+]

@@ -24,6 +24,7 @@ class Let:
     ctype: str
     name: str
     value: str | None
+    may_refuse: bool = False  # a call that has to be made even if nothing reads its result
 
 
 @dataclass
@@ -101,6 +102,9 @@ def pruned(block: Block, live: set[str]) -> Block:
     for statement in reversed(block):
         if isinstance(statement, Let | Put):
             if statement.name not in live:
+                if isinstance(statement, Let) and statement.may_refuse:
+                    live |= names_in(statement.value)
+                    kept.append(Do(f"{statement.value};"))
                 continue
             live |= names_in(statement.value)
             kept.append(statement)
@@ -139,21 +143,21 @@ def printed(block: Block, depth: int = 1) -> list[str]:
         if isinstance(statement, Let):
             value = "" if statement.value is None else f" = {statement.value}"
             const = "" if statement.value is None else "const "
-            lines += _wrapped(f"{const}{statement.ctype} {statement.name}{value};", depth)
+            lines += wrapped(f"{const}{statement.ctype} {statement.name}{value};", depth)
         elif isinstance(statement, Put):
-            lines += _wrapped(f"{statement.name} = {statement.value};", depth)
+            lines += wrapped(f"{statement.name} = {statement.value};", depth)
         elif isinstance(statement, If):
             lines += _choice(statement, depth)
         elif isinstance(statement, Loop):
             lines += [
-                *_wrapped(f"{statement.head} {{", depth),
+                *wrapped(f"{statement.head} {{", depth),
                 *printed(statement.body, depth + 1),
                 "    " * depth + "}",
             ]
         elif isinstance(statement, Give):
             lines += _given(statement, depth)
         else:
-            lines += _wrapped(statement.text, depth)
+            lines += wrapped(statement.text, depth)
     return lines
 
 
@@ -187,7 +191,7 @@ def _given(statement: Give, depth: int) -> list[str]:
         return [indent + statement.text]
     lines = [f"{indent}return (struct {statement.struct}){{"]
     for name, value in statement.members:
-        lines += _wrapped(f".{name} = {value},", depth + 1)
+        lines += wrapped(f".{name} = {value},", depth + 1)
     return [*lines, indent + "};"]
 
 
@@ -195,13 +199,13 @@ def _choice(choice: If, depth: int) -> list[str]:
     indent = "    " * depth
     if not choice.then:
         choice = If(f"!({choice.test})", choice.otherwise, [])
-    lines = [*_wrapped(f"if ({choice.test}) {{", depth), *printed(choice.then, depth + 1)]
+    lines = [*wrapped(f"if ({choice.test}) {{", depth), *printed(choice.then, depth + 1)]
     if choice.otherwise:
         lines += [indent + "} else {", *printed(choice.otherwise, depth + 1)]
     return [*lines, indent + "}"]
 
 
-def _wrapped(text: str, depth: int) -> list[str]:
+def wrapped(text: str, depth: int) -> list[str]:
     """Return a statement in lines of limited width, cut at spaces outside quotation marks."""
     indent, lines = "    " * depth, []
     line = indent

@@ -15,7 +15,19 @@ from . import code
 from .arrays import arrays_in, on_arrays
 from .expressions import Super
 from .interpreter import Scope
-from .results import distinct, fields_of, filled, forwarded, holes_in, part_names, wanted_fields
+from .results import (
+    distinct,
+    fields_of,
+    filled,
+    forwarded,
+    given_places,
+    handed_on,
+    holes_in,
+    part_names,
+    wanted_fields,
+    with_alike,
+    with_given,
+)
 from .sources import about, closure_of, expression_of, is_straight, method_after, statements_of
 from .units import Text, Unit, matched, template_of, unique
 from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
@@ -90,7 +102,7 @@ class Translator:
         """Write a function that C code calls, with all it needs; `operands` have numbers at run time by name."""
         closure = closure_of(function)
         bound = self._bound(closure, function, operands, {})
-        found = self._function(closure, bound)
+        found = self._function(closure, bound, hands_on=False)
         given = distinct((bound, closure))
         takes = [number for number, used in zip(given, found.used, strict=True) if used]
         if found.forward is not None:
@@ -111,6 +123,9 @@ class Translator:
         """Return the members that anything reads of the structs of functions, by what these are; of entries all."""
         found: dict[Any, set[str]] = {}
         for text in texts:
+            for name in re.findall(r"(?<=[;{}])\n +(\w+)\(", text):  # calls whose results nothing reads
+                if name in self._keys:
+                    found.setdefault(self._keys[name], set())
             for struct, name in re.findall(r"const struct (\w+)\s+(\w+)\s+=", text):
                 found.setdefault(self._keys[struct], set()).update(re.findall(rf"\b{name}\.(\w+)", text))
         for entry in entries:
@@ -129,7 +144,7 @@ class Translator:
 
         def marked(hole: Num) -> Num:
             field = next(fields)
-            if field in self._reads[key]:
+            if hole.text or field in self._reads[key]:
                 return hole
             self._unread.append((key, field))
             return Num(f"{_UNREAD}{len(self._unread) - 1}", hole.kind)
@@ -208,35 +223,42 @@ class Translator:
         return dict(zip(names, operands, strict=False)) | named
 
     def _called(self, unit: Unit, found: CFunction, given: list[Num]) -> Any:
+        given = list(given)
+        for name, place in given_places(found.template):  # used again after the call
+            given[place] = unit.let(name or "given", given[place])
+        return with_alike(self._made(unit, found, given))
+
+    def _made(self, unit: Unit, found: CFunction, given: list[Num]) -> Any:
+        template = with_given(found.template, given)
         if found.forward is not None:
-            return filled(found.template, _handed_on(found.forward, given))
+            return filled(template, _handed_on(found.forward, given))
         texts = [number.text for number, used in zip(given, found.used, strict=True) if used]
         if found.may_fail:
             texts.append("why")
         call = f"{found.name}({', '.join(texts)})"
-        holes = holes_in(found.template)
+        holes = holes_in(template)
         if not holes:
             if found.may_fail:
                 unit.emit(code.Do(f"{call};"))
                 self._checked(unit)
-            return found.template
+            return template
         if len(holes) == 1:
             result = Num(call, holes[0].kind)
             if found.may_fail:
                 name = unit.fresh(found.name)
-                unit.emit(code.Let(code.c_type(result.kind), name, call))
+                unit.emit(code.Let(code.c_type(result.kind), name, call, may_refuse=True))
                 result = Num(name, result.kind)
                 self._checked(unit)
-            return filled(found.template, [result])
+            return filled(template, [result])
         struct = unit.known(call)
         if struct is None:
             struct = unit.fresh(f"of_{found.name}")
             unit.keep(call, struct)
-            unit.emit(code.Let(f"struct {found.name}", struct, call))
+            unit.emit(code.Let(f"struct {found.name}", struct, call, found.may_fail))
             if found.may_fail:
                 self._checked(unit)
         members = [Num(f"{struct}.{field}", hole.kind) for field, hole in zip(found.fields, holes, strict=True)]
-        return filled(found.template, members)
+        return filled(template, members)
 
     def _checked(self, unit: Unit) -> None:
         """Leave the function if the one called has refused."""
@@ -274,8 +296,8 @@ class Translator:
 
     # C functions
 
-    def _function(self, closure: Closure, bound: dict[str, Any]) -> CFunction:
-        """Return the C function for parameters like these."""
+    def _function(self, closure: Closure, bound: dict[str, Any], *, hands_on: bool = True) -> CFunction:
+        """Return the C function for parameters like these; with `hands_on` it does not return what it is given."""
         key = (
             ast.dump(closure.node) if isinstance(closure.node, ast.Lambda) else id(closure.node),
             closure.path,
@@ -287,10 +309,14 @@ class Translator:
             self._kept.append((closure, bound))
             name = self._new_name(closure.name)
             self._keys[name] = key
-            first = self._written(name, closure, bound, None)
+            parameters: list[Num] = []
+            first = self._written(name, closure, bound, None, parameters)
             if not first.returned:
                 raise Untranslatable(f"{closure.path} always refuses")
-            self._cache[key] = self._finished(name, closure, bound, template_of(first.returned))
+            template = template_of(first.returned)
+            if hands_on:
+                template = handed_on(template, first.returned, parameters)
+            self._cache[key] = self._finished(name, closure, bound, template)
         return self._cache[key]
 
     def _new_name(self, name: str) -> str:

@@ -9,6 +9,8 @@ from . import code
 from .units import KEYWORDS, Unit, matched, unique
 from .values import UNARY, Num, leaves, replaced
 
+_GIVEN = "given_"  # stands, with its place, for a member that is always the same one of those that a function takes
+_LIKE = "like_"  # stands, with its place, for a member that is always the same as an earlier one
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 
 
@@ -77,3 +79,49 @@ def forwarded(unit: Unit, template: Any, parameters: list[Num]) -> list[int | st
         else:
             return None
     return found
+
+
+def handed_on(template: Any, returned: list[Any], parameters: list[Num]) -> Any:
+    """Return a result with marks for members that need no return, and their places.
+
+    Those are the same parameter, or the same as an earlier member, wherever a function returns.
+    """
+    places = {parameter.text: place for place, parameter in enumerate(parameters)}
+    columns = zip(*(matched(value, template) for value in returned), strict=True)
+    texts = enumerate(tuple((number.text, number.kind) for number in column) for column in columns)
+    seen: dict[Any, int] = {}
+
+    def marked(hole: Num) -> Num:
+        index, column = next(texts)
+        (text, _), *others = set(column)
+        if not others and text in places:
+            return Num(f"{_GIVEN}{places[text]}", hole.kind)
+        first = seen.setdefault(column, index)
+        return hole if first == index else Num(f"{_LIKE}{first}", hole.kind)
+
+    return replaced(template, marked)
+
+
+def given_places(template: Any) -> list[tuple[str, int]]:
+    """Return names and places of the parameters that a function hands on."""
+    given = [(name, hole.text) for name, hole in leaves(template) if hole.text.startswith(_GIVEN)]
+    return [(name, int(text.removeprefix(_GIVEN))) for name, text in given]
+
+
+def with_given(template: Any, given: list[Num]) -> Any:
+    """Return a result with what a caller gave in the places of what a function hands on."""
+
+    def own(hole: Num) -> Num:
+        return given[int(hole.text.removeprefix(_GIVEN))] if hole.text.startswith(_GIVEN) else hole
+
+    return replaced(template, own)
+
+
+def with_alike(value: Any) -> Any:
+    """Return a result with earlier members in the places of those that are the same."""
+    numbers = [number for _, number in leaves(value)]
+
+    def own(hole: Num) -> Num:
+        return numbers[int(hole.text.removeprefix(_LIKE))] if hole.text.startswith(_LIKE) else hole
+
+    return replaced(value, own)

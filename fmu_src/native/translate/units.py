@@ -77,7 +77,8 @@ class Unit:
 
     def fresh(self, name: str) -> str:
         """Return a new name for a local variable, made from a Python name."""
-        found = unique(re.sub(r"\W", "_", name).strip("_") or "value", self.names | _TAKEN)
+        found = re.sub(r"\W", "_", name).strip("_") or "value"
+        found = unique(found if not found[0].isdigit() else f"part_{found}", self.names | _TAKEN)
         self.names.add(found)
         return found
 

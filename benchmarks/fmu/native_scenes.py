@@ -18,11 +18,6 @@ def _of(slot: str, model: str, **values: str) -> Change:
     return _slot(slot, model=model, **values)
 
 
-_STEEL = {
-    f"{name}_{i}": value
-    for name, value in (("conductivity", "46 W/(m K)"), ("diffusivity", "1.25e-5 m2/s"))
-    for i in (1, 2)
-}
 _LUMPED = {f"heat_capacity_{i}": "2000 J/K" for i in (1, 2)} | {f"conductance_{i}": "50 W/K" for i in (1, 2)}
 _ACTIVATED = "zhang_spikes_80c_octyl"
 
@@ -87,21 +82,21 @@ CHOICES: dict[str, list[Change]] = {
     "bulk": [{}, _of("heat.bulk", "inputs"), _of("heat.bulk", "lumped", **_LUMPED)],
     "tribofilm": [
         {},
-        _slot("tribofilm", dose="contact_length"),
-        _slot("tribofilm", dose="clock"),
-        _slot("tribofilm", nodes="stressed", least_shear="50 MPa", supply_rate="0.1 nm/s"),
-        _slot("tribofilm", beyond_fit="extrapolate"),
+        _slot("tribofilm", dose="contact_length", nodes="stressed", least_shear="50 MPa", supply_rate="0.1 nm/s"),
+        _slot("tribofilm", dose="clock", beyond_fit="extrapolate"),
         {"tribofilm.model": "none"},
-        {"tribofilm.set": "andersson_90c", "tribofilm.beyond_fit": "extrapolate"},
         {"tribofilm.set": "andersson_90c", "tribofilm.beyond_fit": "extrapolate", "tribofilm.least_power": "1e5 W/m2"},
-        {"tribofilm.set": _ACTIVATED},
         {"tribofilm.set": _ACTIVATED, "tribofilm.dose": "contact_length", "tribofilm.edge_weight": "1"},
-        {"tribofilm.set": _ACTIVATED, "tribofilm.least_shear": "50 MPa", "tribofilm.removal_coefficient": "0 1/(Pa m)"},
+        {
+            "tribofilm.set": _ACTIVATED,
+            "tribofilm.least_shear": "50 MPa",
+            "tribofilm.removal_coefficient": "0 1/(Pa m)",
+        },
         {"tribofilm.set": "gosvami"},
         {"tribofilm.set": "gosvami", "tribofilm.dose": "contact_length", "tribofilm.supply_rate": "10 nm/s"},
         {"tribofilm.set": "combined_80c"},
         {"tribofilm.set": "combined_80c", "tribofilm.dose": "residence", "tribofilm.beyond_fit": "extrapolate"},
-        {"tribofilm.set": "zddp_60_100c"},
+        {"tribofilm.set": "zddp_60_100c", "tribofilm.dose": "clock"},
         {"tribofilm.set": "zddp_60_100c", "tribofilm.dose": "contact_length", "tribofilm.beyond_fit": "extrapolate"},
         {"tribofilm.set": "zddp_80_90c", "tribofilm.dose": "residence"},
     ],
@@ -141,6 +136,7 @@ def selection(seed: int = 0) -> Iterator[tuple[str, Change]]:
     left = {slot: rng.sample(range(len(listed)), len(listed)) for slot, listed in CHOICES.items()}
     while any(left.values()):
         numbers = {slot: rest[-1] if rest else rng.randrange(len(CHOICES[slot])) for slot, rest in left.items()}
+        numbers["bulk"] = numbers["bulk"] if left["bulk"] else 0  # Python is slow where bodies warm up
         while not usable(numbers):
             slot = rng.choice([each for each in numbers if each != "tribofilm"])
             numbers[slot] = rng.randrange(len(CHOICES[slot]))
