@@ -10,6 +10,7 @@ from pathlib import Path
 from native_fmu import write
 
 from contact_core import ContactError, OperatingPoint, Scene, advance, initial_state
+from contact_core.scene import Case
 from fmu_src.native import files, program
 from fmu_src.native.build import FOLDER
 
@@ -122,7 +123,7 @@ def differences(scene: Scene, contact: NativeContact, runs: int, steps: int, see
                 continue
             assert not said, f"{inputs}, {dt} s: C alone refused: {said}"
             assert not contact.derivatives(inputs)
-            slopes = dict(zip(program.SLOPES, program.derivatives(scene, point, state), strict=True))
+            slopes = dict(zip(program.SLOPES, program.derivatives(Case(scene, point), state), strict=True))
             for name, value in contact.found.items():
                 expected = slopes[name] if name in slopes else float(getattr(outputs, name))
                 scale = max(abs(expected), _scale(name, inputs, outputs.friction_force), 1e-300)

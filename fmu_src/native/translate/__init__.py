@@ -1,16 +1,18 @@
 """From the Python of the regression level to C99, with everything known of one scene put in.
 
-values        numbers that are known at run time only, as C expressions
-code          C statements, pruned and printed
-units         C functions under construction, values from several branches
-sources       functions of Python: trees, names, texts
-library       what functions of Python, math and numpy are in C
-expressions   expressions of Python
-loops         loops that stay loops
-results       what C functions return
-arrays        what a law gives for each element of an array
-interpreter   statements of Python
-functions     calls, and C functions: one for each way in which a Python function is used
+    values        numbers that are known at run time only, as C expressions
+    code          C statements, pruned and printed
+    units         C functions under construction, values from several branches
+    sources       functions of Python: trees, names, texts
+    library       what functions of Python, math and numpy are in C
+    expressions   expressions of Python
+    loops         loops that stay loops
+    results       what C functions return
+    arrays        what a law gives for each element of an array
+    interpreter   statements of Python
+    functions     calls, and C functions: one for each way in which a Python function is used
+
+Nothing here knows contacts: `fmu_src.native.program` says what is written.
 """
 
 from .functions import Entry, Translator
