@@ -88,7 +88,7 @@ def run_in(importer: str, file: Path, steps: int, names: tuple[str, ...]) -> tup
 
 def in_others(assembly: Assembly, folder: Path, report: Page, case: Case) -> None:
     """Run the exported files in other masters."""
-    timed, end = with_timetable(assembly), LONG * STEP
+    timed, end = with_timetable(assembly), LONGEST * STEP
     files = {
         flavour: export_ssp(
             timed.system(folder / f"of_{flavour}", flavour, here=True), folder / f"{flavour}.ssp", end, STEP
