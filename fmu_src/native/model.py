@@ -96,7 +96,9 @@ def model_c(table: Sequence[Variable], token: str, *, ranges: bool = True) -> st
 
 
 def _place(output: str, table: Sequence[Variable]) -> str:
-    return f"PLACE_OF_OUTPUT({output})" if any(v.name == output for v in table) else "OUTPUTS"
+    return (
+        f"PLACE_OF_OUTPUT({output})" if any(v.name == output and v.causality == "output" for v in table) else "OUTPUTS"
+    )
 
 
 def c_text(text: str) -> str:

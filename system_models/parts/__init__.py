@@ -8,6 +8,7 @@
     timetable     the duty of a machine as a component
     linear        x' = A x + B u over any step; conduction: the same for heat capacities joined by conductances
     build         the FMU of a component; variables: its variables; resources: its files; slave: its runtime
+    native        its C, written from its Python; scalars: what is computed with arrays, for that once more with numbers
 
 Components know neither FMI nor one another.
 """

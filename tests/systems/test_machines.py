@@ -282,6 +282,6 @@ def test_each_machine_exports_as_ssp_that_others_read(machine: str, tmp_path: Pa
         assert float(values[tuple(target.split(".", 1))]) == value
 
 
-def test_a_flavour_is_for_an_exported_machine(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["run", "mtm_rig", "--flavour", "native"]) == 2
-    assert "add --ssp FILE.ssp" in capsys.readouterr().err
+def test_a_flavour_is_for_a_machine(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "mtm_zddp", "--flavour", "native"]) == 2
+    assert "of the FMUs of a machine" in capsys.readouterr().err
