@@ -1,6 +1,7 @@
 """FMUs of FMI 3.0: their description says what that of FMI 2.0 says; terminals, sources and flavours."""
 
 import zipfile
+from collections.abc import Mapping
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -39,10 +40,12 @@ def fmu(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def generator(monkeypatch: pytest.MonkeyPatch) -> None:
     """A stand-in for the generator of C and its compilers."""
     folder = {2: "linux64", 3: "x86_64-linux"}
+
+    def binaries(sources: Mapping[str, bytes], fmi: int, model: str, here: bool) -> dict[str, bytes]:
+        return {f"binaries/{folder[fmi]}/{model}.so": b"library"}
+
     monkeypatch.setattr(native_files, "sources", lambda scene, fmi: SOURCES)
-    monkeypatch.setattr(
-        native_files, "binaries", lambda sources, fmi: {f"binaries/{folder[fmi]}/MixedContact.so": b"library"}
-    )
+    monkeypatch.setattr(native_files, "binaries", binaries)
 
 
 def content(fmu: Path) -> dict[str, bytes]:
@@ -223,8 +226,8 @@ def test_flavours_in_python_are_all_but_the_native_one() -> None:
     assert set(WITH_PYTHON) == VERSIONS.keys() - {"native"}
 
 
-def test_a_component_in_c_is_refused(tmp_path: Path) -> None:
+def test_a_component_in_c_has_sources_and_nothing_of_python(tmp_path: Path) -> None:
     part = next(iter(EXAMPLES.values()))[0]
-    with pytest.raises(SceneError, match="components are models in Python: take isolated or embedded"):
-        build_part(part, tmp_path / "part.fmu", "native")
-    assert list(tmp_path.iterdir()) == []
+    files = content(build_part(part, tmp_path / "part.fmu", "native", here=True))
+    assert {"sources/contact.c", f"binaries/linux64/{part.name}.so"} <= files.keys()
+    assert [name for name in files if name.startswith("resources/") or name.endswith(".py")] == []
