@@ -100,7 +100,7 @@ def _checkpoint(kind: str, before: Mapping[str, Any], record: Record) -> None:
     done = _ended(kind, killed, fine=(0, 1, 2))
     told = done.stderr.replace(str(Path.cwd()), "").strip().splitlines()
     if done.returncode != 2:
-        if not any("Going on from" in line for line in told):
+        if not any("Continuing from" in line for line in told):
             raise RuntimeError(f"The checkpoint was not gone on from: {told}")
         record.put(f"{NOTE}the checkpoint of REV", "taken")
         put_results(record, killed)
