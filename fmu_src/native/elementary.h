@@ -3,6 +3,10 @@
 #ifndef ELEMENTARY_H
 #define ELEMENTARY_H
 
+#ifdef __FAST_MATH__
+#error "These functions count on the order of their additions: compile without -ffast-math and -Ofast."
+#endif
+
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
