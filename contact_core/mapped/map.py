@@ -26,7 +26,8 @@ COORDINATES = (  # of a contact by the regression level, in the order of `query.
     "temperature",  # of the oil that is drawn in [K]
     "raised_1",  # by which the tribofilm of body 1 makes it rougher, over composite roughness of new surfaces
     "raised_2",  # likewise of body 2
-    "worn",  # ln of (composite roughness of the solids over that of new surfaces + 0.01)
+    "worn_1",  # ln of (roughness of the solid of body 1 over that of a new one + 0.01)
+    "worn_2",  # likewise of body 2
 )
 STEEPEST = 3.0  # largest logarithm of a factor
 _FORMAT = 1

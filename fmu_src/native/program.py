@@ -15,7 +15,7 @@ from contact_core import initial_state
 from contact_core.errors import OperatingPointError, SceneError
 from contact_core.film import Mapped, Regression
 from contact_core.mapped.map import map_of
-from contact_core.mapped.query import corrected
+from contact_core.mapped.query import corrected, slopes
 from contact_core.quantities import OF_CALLER, OF_CORE
 from contact_core.regression import evolution
 from contact_core.regression.contact import MeanContact, evaluate
@@ -88,8 +88,7 @@ def _with_own_radii(case: Case) -> OperatingPoint:
 def step(case: Case, state: ContactState, dt: float) -> Found:
     """Return the state and the outputs after a step of `dt` [s]."""
     begun = _begun(case.op, state)
-    contacts = _contacts(case.scene, derivatives=False)
-    after, outputs = evolution.advance(bound(case, begun), begun, dt, contacts)
+    after, outputs = evolution.advance(bound(case, begun), begun, dt, _LEVELS[case.scene.film.name](case.scene))
     if case.scene.heat.bulk.stores_heat and dt == 0.0:  # bodies begin at the temperature of the oil of the first step
         after = changed(after, temperatures=state.temperatures)
     return after, outputs
@@ -100,33 +99,40 @@ def derivatives(case: Case, state: ContactState) -> tuple[float, float, float, f
     begun = _begun(case.op, state)
     now = bound(case, begun).warmed(begun.temperatures)
     assert state.means is not None
-    return _contacts(case.scene, derivatives=True)(now, tribofilms_of(state.means)).derivatives
+    return _SLOPES[case.scene.film.name](now, tribofilms_of(state.means))
 
 
-def _contacts(scene: Scene, *, derivatives: bool) -> evolution.ContactOf:
-    """Return the function that evaluates contacts of a scene at its level."""
-    return _LEVELS[scene.film.name](scene, derivatives)
+def _of_curves(scene: Scene) -> evolution.ContactOf:
+    """Return the function that evaluates contacts at the regression level, without derivatives."""
 
-
-def _of_curves(scene: Scene, derivatives: bool) -> evolution.ContactOf:
     def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-        return evaluate(case, tribofilms, derivatives)
+        return evaluate(case, tribofilms, derivatives=False)
 
     return contact_of
 
 
-def _of_map(scene: Scene, derivatives: bool) -> evolution.ContactOf:
+def _of_map(scene: Scene) -> evolution.ContactOf:
+    """Return the function that evaluates contacts at the level of maps, without derivatives."""
     chart = map_of(scene)
 
     def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-        return corrected(chart, case, evaluate(case, tribofilms, derivatives))
+        return corrected(chart, case, evaluate(case, tribofilms, derivatives=False))
 
     return contact_of
 
 
-_LEVELS: dict[str, Callable[[Scene, bool], evolution.ContactOf]] = {
-    Regression.name: _of_curves,
-    Mapped.name: _of_map,
+def _slopes_of_curves(case: Case, tribofilms: Tribofilms) -> tuple[float, float, float, float]:
+    return evaluate(case, tribofilms).derivatives
+
+
+def _slopes_of_map(case: Case, tribofilms: Tribofilms) -> tuple[float, float, float, float]:
+    return slopes(map_of(case.scene), case, tribofilms)
+
+
+_LEVELS: dict[str, Callable[[Scene], evolution.ContactOf]] = {Regression.name: _of_curves, Mapped.name: _of_map}
+_SLOPES: dict[str, Callable[[Case, Tribofilms], tuple[float, float, float, float]]] = {
+    Regression.name: _slopes_of_curves,
+    Mapped.name: _slopes_of_map,
 }
 
 

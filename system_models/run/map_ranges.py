@@ -2,11 +2,12 @@
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from contact_core.errors import ContactError
+from contact_core.mapped.knot import Plan
 from contact_core.scene import OperatingPoint, Scene, units
 
 Range = tuple[float, float]
@@ -16,17 +17,9 @@ _WARMER = 25.0  # K, either way
 _SLIDING = 2.0  # sliding over entrainment speed of a body at rest
 _SLIP = 0.05  # of a scene that only rolls
 _HARD = 0.95  # of the hardness: the largest Hertz pressure
-_FRESH = 0.1  # share of the knots on new surfaces
-_EARLY = 3  # power by which times of rubbing come early
+_LOOKS, _ELSEWHERE = 12, 4  # of a history: looks while it rubs, and at other operating points
+_EARLY = 3  # power by which looks come early, when the surfaces change fast
 OPTIONS = {"load": "N", "entrainment": "m/s", "slide_roll": "", "temperature": "K"}
-
-
-class Drawn(NamedTuple):
-    """Where a knot lies: its operating point, and that at which its surfaces have rubbed for some time [s]."""
-
-    point: OperatingPoint
-    before: OperatingPoint
-    rubbed: float
 
 
 @dataclass(frozen=True)
@@ -37,7 +30,8 @@ class Ranges:
     entrainment: Range  # m/s
     slide_roll: Range  # sliding over entrainment speed
     temperature: Range  # of the oil [K]
-    duration: float  # longest time for which surfaces have rubbed [s]
+    duration: float  # time for which surfaces rub [s]
+    operation: OperatingPoint  # of the scene
 
     @staticmethod
     def of(scene: Scene, given: dict[str, str]) -> "Ranges":
@@ -54,6 +48,7 @@ class Ranges:
             (_SLIPS[0] * (slip or _SLIP), min(_SLIPS[1] * (slip or _SLIP), _SLIDING)),
             (point.temperature - _WARMER, point.temperature + _WARMER),
             operation.duration,
+            point,
         )
         chosen: dict[str, Any] = {name: _parsed(name, text) for name, text in given.items()}
         found = replace(found, **chosen)
@@ -70,12 +65,13 @@ class Ranges:
         """Name, lowest and highest value [SI] of each."""
         return tuple((name, *getattr(self, name)) for name in OPTIONS)
 
-    def draw(self, seed: int, number: int) -> Drawn:
-        """Return where a knot lies; the same for the same seed and number."""
+    def draw(self, seed: int, number: int) -> Plan:
+        """Return a history; the same for the same seed and number. Number 0 rubs at the scene's operation."""
         random = np.random.Generator(np.random.Philox(key=[seed, number]))
-        point, before = self._point(random), self._point(random)
-        late = (float(random.random()) - _FRESH) / (1.0 - _FRESH)
-        return Drawn(point, before, self.duration * max(late, 0.0) ** _EARLY)
+        first = self._point(random)
+        times = tuple(self.duration * (k / _LOOKS) ** _EARLY for k in range(1 + _LOOKS))
+        elsewhere = tuple((int(random.integers(1 + _LOOKS)), self._point(random)) for _ in range(_ELSEWHERE))
+        return Plan(first if number else self.operation, times, elsewhere)
 
     def _point(self, random: np.random.Generator) -> OperatingPoint:
         load, speed, slip = (
