@@ -53,6 +53,7 @@ class Samples(NamedTuple):
 
     places: Array  # `query.coordinates` by the regression level
     slips: Array  # sliding over entrainment speed
+    radii: Array  # along x [m]
     off: Array  # ln of friction and of h_c over those of the regression level, and the difference of W_c
     shares: Array  # contact_load_ratio of the regression level
     own: Array  # half widths of what all solutions share: grid, iteration; relative, of W_c absolute
@@ -174,6 +175,7 @@ def polynomials(
         centres=_tuple(fit.centres),
         halves=_tuple(fit.halves),
         least_slip=float(samples.slips.min()) * (1.0 - _ROOM),
+        radii=(float(samples.radii.min()) * (1.0 - _ROOM), float(samples.radii.max()) * (1.0 + _ROOM)),
         term=tuple(term for term, _ in fit.made),
         coordinate=tuple(coordinate for _, coordinate in fit.made),
         weights=tuple(map(_tuple, weights)),

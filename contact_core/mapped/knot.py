@@ -172,6 +172,7 @@ def samples_of(scene: Scene, histories: Sequence[History]) -> Samples:
                 (
                     coordinates(case, contact),
                     abs(point.sliding_speed) / max(abs(point.entrainment_speed), 1e-9),
+                    case.shape.radius_x,
                     off,
                     contact.load_ratio,
                     np.maximum(knot.shared, _LEAST),

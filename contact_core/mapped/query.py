@@ -18,7 +18,7 @@ from .map import STEEPEST, Map
 Three = tuple[float, float, float]
 Four = tuple[float, float, float, float]
 
-_SLIP, _OIL, _THIN, _WORN, _NONE = 0.1, 1e-4, 1e-3, 0.01, 1e-9  # least numbers: no logarithm of 0
+_SLIP, _OIL, _THIN, _WORN, _NONE = 0.1, 0.02, 1e-3, 0.01, 1e-9  # least numbers: no logarithm of 0
 _MARGIN = 1.0  # of half the range of a coordinate, over which a map fades out beyond it
 _STEP, _KELVIN = 1e-5, 1e-3  # of differences of the factor on friction, relative and in temperature
 
@@ -61,6 +61,7 @@ def coordinates(case: Case, contact: MeanContact) -> tuple[float, ...]:
         contact.tribofilms[1].raised / new,
         math.log(contact.tribofilms[0].solid / max(first.surface.rms, _NONE) + _WORN),
         math.log(contact.tribofilms[1].solid / max(second.surface.rms, _NONE) + _WORN),
+        math.log(case.unit_hertz.a * case.growth[0] / case.sides[case.scene.rougher].surface.length),
     )
 
 
@@ -114,8 +115,10 @@ def here(chart: Map, case: Case, contact: MeanContact) -> Here:
     place = [everything[k] for k in chart.picked]
     slip = abs(op.speed_1 - op.speed_2) / max(0.5 * abs(op.speed_1 + op.speed_2), _NONE)
     scaled = scaled_to(chart, place)
-    known = op.spin == 0.0 and case.shape.radii == case.scene.shape().radii  # no knot has others
-    trust = trusted(chart, place) if known else 0.0
+    least, most = chart.radii
+    radius, ellipse = case.shape.radius_x, case.shape.radii[1:] == case.scene.shape().radii[1:]
+    known = op.spin == 0.0 and ellipse and least <= radius and radius <= most
+    trust = trusted(chart, place) if known else 0.0  # no knot has others
     return Here(trust, min(slip / chart.least_slip, 1.0), scaled, terms(chart, scaled))
 
 
