@@ -245,7 +245,7 @@ class _Fit:
                 plane[1 + k, 1 + self.made.index((0, k))] = 1.0
             into = np.vstack([into, plane])
         squares = (into.T @ self.variance @ into)[::-1, ::-1]
-        return (into.T @ self.weights).T, np.linalg.cholesky(squares)[::-1, ::-1].T
+        return (into.T @ self.weights).T, np.asarray(np.linalg.cholesky(squares))[::-1, ::-1].T
 
 
 def _picked(places: Array) -> tuple[int, ...]:
@@ -272,7 +272,7 @@ def _solved(columns: Array, planes: int, deviations: Array, rule: Rule) -> tuple
     """Return the weights [columns, outputs] of ridge regression, and the inverse of its squares."""
     terms = columns.shape[1] - planes
     ridge = [0.0] + [rule.ridge] * (terms - 1) + ([0.0] + [_PLANE] * (planes - 1) if planes else [])
-    inverse = np.linalg.inv(columns.T @ columns + np.diag(ridge))
+    inverse = np.asarray(np.linalg.inv(columns.T @ columns + np.diag(ridge)))
     return inverse @ columns.T @ deviations, inverse
 
 

@@ -37,6 +37,7 @@ _HELD = {True: 4 * _GROUP, False: 5}  # every so many numbers one is held back: 
 _ROUND = 10  # histories after which the map is made anew
 _MOST = 100_000
 
+
 @dataclass(frozen=True)
 class Order:
     """What is asked for."""

@@ -69,8 +69,8 @@ class Ranges:
                 )
         if "radius_x" in chosen and "radius_y" not in scene.geometry.lacks:
             raise ContactError(
-                f"--radius-x = '{given['radius_x']}': geometry.model = '{scene.geometry.name}' has two radii, and a map "
-                "knows the ellipse of the scene alone. Leave the option out."
+                f"--radius-x = '{given['radius_x']}': geometry.model = '{scene.geometry.name}' has two radii, and a "
+                "map knows the ellipse of the scene alone. Leave the option out."
             )
         return found
 

@@ -129,7 +129,9 @@ def test_toward_pure_rolling_friction_loses_its_correction_and_the_film_keeps_it
         assert RangeFlag.OUTSIDE_FIT in RangeFlag(each.range_flags)
 
 
-@pytest.mark.parametrize(("name", "step"), [("speed_1", 1e-6), ("speed_2", 1e-6), ("load", 1e-3), ("temperature", 0.01)])
+@pytest.mark.parametrize(
+    ("name", "step"), [("speed_1", 1e-6), ("speed_2", 1e-6), ("load", 1e-3), ("temperature", 0.01)]
+)
 def test_derivatives_of_the_friction_are_those_of_the_corrected_one(tmp_path: Path, name: str, step: float) -> None:
     scene = mapped_scene(tmp_path)
     own = scene.operation.point
