@@ -50,6 +50,7 @@ SETS: dict[str, tuple[str, dict[str, str], str]] = {  # scene, changes, words
 NAMES = ("friction", "h_c", "W_c")
 COUNTS = (10, 20, 40, 80)
 MINUTES = 120  # of a run beside the deterministic level
+SLIPS, INSTANTS = (0.0, 0.0005, 0.005, 0.05), 48  # of contacts near pure rolling, and instants of their blocks
 PARTS = 10  # of the histories, each left out in turn, for half widths
 PLACE = tuple(range(len(Place._fields)))  # coordinates of `correction.Place`
 ALL = tuple(range(len(COORDINATES)))
@@ -392,6 +393,28 @@ def along_runs(page: Page, name: str, found: Data, chart: Map) -> None:
                     )  # fmt: skip
 
 
+def near_rolling(page: Page, found: Data) -> None:
+    """Add deviations of contacts that slide less and less."""
+    scene = found.order.scene
+    own, deep = (
+        scene.operation.point,
+        replace(scene.at_level("deterministic"), control=replace(scene.control, mixed_instants=INSTANTS)),
+    )
+    page.say(
+        "Fresh surfaces that slide less and less: what the deterministic level deviates by from the regression level."
+    )
+    page.header("entrainment [m/s]", "slide-roll ratio", "h_c", "W_c", "friction")
+    for speed in (own.entrainment_speed, 2.5 * own.entrainment_speed):
+        for slip in SLIPS:
+            point = replace(own, speed_1=speed * (1.0 + 0.5 * slip), speed_2=speed * (1.0 - 0.5 * slip))
+            one, other = (run(at, point, (0.0,))[0] for at in (deep, scene.at_level("regression")))
+            friction = 100.0 * (one.friction_coefficient / other.friction_coefficient - 1.0) if slip else 0.0
+            page.row(
+                speed, slip, f"{100.0 * (one.h_c / other.h_c - 1.0):.1f} %",
+                f"{100.0 * (one.contact_load_ratio - other.contact_load_ratio):.1f} %", f"{friction:.1f} %",
+            )  # fmt: skip
+
+
 def main() -> None:
     """Compare, and write the page."""
     page = Page("regression/map", "Maps of what the regression level deviates by")
@@ -420,6 +443,7 @@ def main() -> None:
         along_runs(page, name, found, chart)
         if len(set(found.samples.fine)) == 1:
             by_count(page, found)
+            near_rolling(page, found)
     page.write()
 
 

@@ -1,11 +1,16 @@
-"""A map from solved contacts: sparse polynomials by least squares, and half widths by contacts left out.
+"""A map from solved contacts: sparse polynomials by least squares, and half widths by histories left out.
 
 Terms are chosen one after the other, each the product of one that is there and a coordinate, which takes away most of
-what is left of all outputs together; as many as leave the smallest sum of squares of each contact by all others
+what is left of all outputs together; as many as leave the smallest sum of squares of each history by all others
 (orthogonal matching pursuit; Pati, Rezaiifar & Krishnaprasad, Asilomar 1993, doi:10.1109/ACSSC.1993.342465, and PRESS:
-Allen, Technometrics 16 (1974) 125, doi:10.1080/00401706.1974.10489157). Half widths are such that, with the
-scatter that a solution states for itself, 95 % of the contacts are inside when terms and weights are found without
-them, a tenth of the contacts at a time.
+Allen, Technometrics 16 (1974) 125, doi:10.1080/00401706.1974.10489157). Contacts of the coarser grid, which cost
+little, make most of the polynomials; what the scene's grid adds to them is a plane in the coordinates, in which the
+sampling of both, which have the same surfaces, largely cancels (two levels of a multilevel method; Giles, Acta Numerica
+24 (2015) 259, doi:10.1017/S096249291500001X).
+
+Half widths are such that, with the scatter that a solution states for itself, 95 % of the contacts of each grid are
+inside when terms and weights are found without their history, a tenth of the histories at a time: they are those of
+what a long run averages to, not of one block.
 """
 
 from dataclasses import dataclass, replace
@@ -22,7 +27,7 @@ Array = NDArray[np.float64]
 COVERED = 0.95  # of the contacts left out, by half widths
 FEWEST = 30  # contacts that a map is made of, at least
 FEWEST_HISTORIES = 3  # on the scene's grid, at least
-_DEGREE, _TERMS, _SHARE = 3, 40, 4  # largest degree and number of terms; contacts for each term, at least
+_DEGREE, _TERMS, _SHARE = 3, 34, 4  # largest degree and number of terms; contacts for each term, at least
 _PATIENCE = 6  # terms that are tried after the best
 _RIDGE = 1.0  # squares that each weight adds to the sum of squares, over those of one contact
 _PLANE = 30.0  # likewise, of the planes that the scene's grid adds, which few histories have
