@@ -28,6 +28,7 @@ COORDINATES = (  # of a contact by the regression level, in the order of `query.
     "raised_2",  # likewise of body 2
     "worn_1",  # ln of (roughness of the solid of body 1 over that of a new one + 0.01)
     "worn_2",  # likewise of body 2
+    "lead",  # s / (|s| + 0.1), s being how much faster the rougher body is over the entrainment speed
     "width",  # ln of Hertz's half width along x over the correlation length of the rougher body
 )
 STEEPEST = 3.0  # largest logarithm of a factor

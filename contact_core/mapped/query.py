@@ -45,6 +45,8 @@ def coordinates(case: Case, contact: MeanContact) -> tuple[float, ...]:
     op, share = case.op, contact.load_ratio
     first, second = case.sides
     mean = max(0.5 * abs(op.speed_1 + op.speed_2), _NONE)
+    along = 0.5 * (op.speed_1 + op.speed_2)
+    faster = (op.speed_2 - op.speed_1 if case.scene.rougher else op.speed_1 - op.speed_2) / math.copysign(mean, along)
     oil = abs(contact.fluid) / (max(1.0 - share, _NONE) * op.load)
     new = math.hypot(first.surface.rms, second.surface.rms)
     return (
@@ -61,6 +63,7 @@ def coordinates(case: Case, contact: MeanContact) -> tuple[float, ...]:
         contact.tribofilms[1].raised / new,
         math.log(contact.tribofilms[0].solid / max(first.surface.rms, _NONE) + _WORN),
         math.log(contact.tribofilms[1].solid / max(second.surface.rms, _NONE) + _WORN),
+        faster / (abs(faster) + _SLIP),
         math.log(case.unit_hertz.a * case.growth[0] / case.sides[case.scene.rougher].surface.length),
     )
 

@@ -88,7 +88,7 @@ def _with_own_radii(case: Case) -> OperatingPoint:
 def step(case: Case, state: ContactState, dt: float) -> Found:
     """Return the state and the outputs after a step of `dt` [s]."""
     begun = _begun(case.op, state)
-    after, outputs = evolution.advance(bound(case, begun), begun, dt, _LEVELS[case.scene.film.name](case.scene))
+    after, outputs = evolution.advance(bound(case, begun), begun, dt, _contacts(case.scene))
     if case.scene.heat.bulk.stores_heat and dt == 0.0:  # bodies begin at the temperature of the oil of the first step
         after = changed(after, temperatures=state.temperatures)
     return after, outputs
@@ -99,41 +99,23 @@ def derivatives(case: Case, state: ContactState) -> tuple[float, float, float, f
     begun = _begun(case.op, state)
     now = bound(case, begun).warmed(begun.temperatures)
     assert state.means is not None
-    return _SLOPES[case.scene.film.name](now, tribofilms_of(state.means))
+    films = tribofilms_of(state.means)
+    return slopes(map_of(case.scene), now, films) if _by_map(case.scene) else evaluate(now, films).derivatives
 
 
-def _of_curves(scene: Scene) -> evolution.ContactOf:
-    """Return the function that evaluates contacts at the regression level, without derivatives."""
+def _contacts(scene: Scene) -> evolution.ContactOf:
+    """Return the function that evaluates contacts of a scene at its level, without derivatives."""
+    chart = map_of(scene) if _by_map(scene) else None
 
     def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-        return evaluate(case, tribofilms, derivatives=False)
+        contact = evaluate(case, tribofilms, derivatives=False)
+        return contact if chart is None else corrected(chart, case, contact)
 
     return contact_of
 
 
-def _of_map(scene: Scene) -> evolution.ContactOf:
-    """Return the function that evaluates contacts at the level of maps, without derivatives."""
-    chart = map_of(scene)
-
-    def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-        return corrected(chart, case, evaluate(case, tribofilms, derivatives=False))
-
-    return contact_of
-
-
-def _slopes_of_curves(case: Case, tribofilms: Tribofilms) -> tuple[float, float, float, float]:
-    return evaluate(case, tribofilms).derivatives
-
-
-def _slopes_of_map(case: Case, tribofilms: Tribofilms) -> tuple[float, float, float, float]:
-    return slopes(map_of(case.scene), case, tribofilms)
-
-
-_LEVELS: dict[str, Callable[[Scene], evolution.ContactOf]] = {Regression.name: _of_curves, Mapped.name: _of_map}
-_SLOPES: dict[str, Callable[[Case, Tribofilms], tuple[float, float, float, float]]] = {
-    Regression.name: _slopes_of_curves,
-    Mapped.name: _slopes_of_map,
-}
+def _by_map(scene: Scene) -> bool:
+    return {Regression.name: False, Mapped.name: True}[scene.film.name]
 
 
 def _begun(point: OperatingPoint, state: ContactState) -> ContactState:
@@ -217,7 +199,7 @@ def _key(scene: Scene) -> str:
 
 def _may_vary(scene: Scene) -> bool:
     """Return True if track lengths can be numbers at run time: a map is read for the scene as it is."""
-    return {Regression.name: True, Mapped.name: False}[scene.film.name]
+    return not _by_map(scene)
 
 
 def _tracks(*lengths: float) -> str:
