@@ -8,7 +8,7 @@ import copy
 import dataclasses
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from contact_core import initial_state
@@ -114,8 +114,11 @@ def _contacts(scene: Scene) -> evolution.ContactOf:
     return contact_of
 
 
+_LEVELS = {Regression.name: False, Mapped.name: True}  # that a native FMU can have; True: corrected by a map
+
+
 def _by_map(scene: Scene) -> bool:
-    return {Regression.name: False, Mapped.name: True}[scene.film.name]
+    return _LEVELS[scene.film.name]
 
 
 def _begun(point: OperatingPoint, state: ContactState) -> ContactState:
