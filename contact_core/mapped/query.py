@@ -12,7 +12,7 @@ from ..amended import amended, exact
 from ..regression.contact import MeanContact, Stated, evaluate
 from ..regression.outputs import half_widths
 from ..regression.surfaces import Tribofilms
-from ..scene import Case, OperatingPoint
+from ..scene import Case
 from .map import STEEPEST, Map
 
 Three = tuple[float, float, float]
@@ -202,13 +202,12 @@ def slopes(chart: Map, case: Case, tribofilms: Tribofilms) -> Four:
         ),
     )
     first, second, third, fourth = (
-        factor * by + force * (_factor(chart, case, point, tribofilms) - factor) / step
+        factor * by + force * (_factor(chart, Case(case.scene, point), tribofilms) - factor) / step
         for by, (step, point) in zip(contact.derivatives, beside, strict=True)
     )
     return first, second, third, fourth
 
 
-def _factor(chart: Map, case: Case, point: OperatingPoint, tribofilms: Tribofilms) -> float:
-    """Return the factor on friction at another operating point."""
-    there = Case(case.scene, point)
-    return friction_factor(chart, here(chart, there, evaluate(there, tribofilms, derivatives=False)))
+def _factor(chart: Map, case: Case, tribofilms: Tribofilms) -> float:
+    """Return the factor on friction."""
+    return friction_factor(chart, here(chart, case, evaluate(case, tribofilms, derivatives=False)))

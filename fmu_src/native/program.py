@@ -8,7 +8,7 @@ import copy
 import dataclasses
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from contact_core import initial_state
@@ -88,7 +88,7 @@ def _with_own_radii(case: Case) -> OperatingPoint:
 def step(case: Case, state: ContactState, dt: float) -> Found:
     """Return the state and the outputs after a step of `dt` [s]."""
     begun = _begun(case.op, state)
-    after, outputs = evolution.advance(bound(case, begun), begun, dt, _contacts(case.scene))
+    after, outputs = evolution.advance(bound(case, begun), begun, dt, _LEVELS[case.scene.film.name](case.scene))
     if case.scene.heat.bulk.stores_heat and dt == 0.0:  # bodies begin at the temperature of the oil of the first step
         after = changed(after, temperatures=state.temperatures)
     return after, outputs
@@ -100,25 +100,33 @@ def derivatives(case: Case, state: ContactState) -> tuple[float, float, float, f
     now = bound(case, begun).warmed(begun.temperatures)
     assert state.means is not None
     films = tribofilms_of(state.means)
-    return slopes(map_of(case.scene), now, films) if _by_map(case.scene) else evaluate(now, films).derivatives
+    if _by_map(case.scene):
+        return slopes(map_of(case.scene), now, films)
+    return evaluate(now, films).derivatives
 
 
-def _contacts(scene: Scene) -> evolution.ContactOf:
-    """Return the function that evaluates contacts of a scene at its level, without derivatives."""
-    chart = map_of(scene) if _by_map(scene) else None
-
+def _of_curves(scene: Scene) -> evolution.ContactOf:
     def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-        contact = evaluate(case, tribofilms, derivatives=False)
-        return contact if chart is None else corrected(chart, case, contact)
+        return evaluate(case, tribofilms, derivatives=False)
 
     return contact_of
 
 
-_LEVELS = {Regression.name: False, Mapped.name: True}  # that a native FMU can have; True: corrected by a map
+def _of_map(scene: Scene) -> evolution.ContactOf:
+    chart = map_of(scene)
+
+    def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
+        return corrected(chart, case, evaluate(case, tribofilms, derivatives=False))
+
+    return contact_of
+
+
+# of a scene at its level, the function that evaluates contacts, without derivatives
+_LEVELS: dict[str, Callable[[Scene], evolution.ContactOf]] = {Regression.name: _of_curves, Mapped.name: _of_map}
 
 
 def _by_map(scene: Scene) -> bool:
-    return _LEVELS[scene.film.name]
+    return {Regression.name: False, Mapped.name: True}[scene.film.name]
 
 
 def _begun(point: OperatingPoint, state: ContactState) -> ContactState:
