@@ -157,7 +157,7 @@ static Status count_dependencies(Instance *it, fmi3ValueReference reference, siz
     if (reference >= MODEL_VARIABLES_COUNT)
         return log_error(it, "There is no variable with value reference %lu.", (unsigned long)reference);
     Role role = MODEL_VARIABLES[reference].role;
-    int depends = role != INPUT && role != FIXED && role != TUNABLE && role != TIME && it->now.phase < STEPPING;
+    int depends = role != INPUT && role != FIXED && role != TIME && it->now.phase < STEPPING;
     *count = depends ? INPUTS : 0;
     return OK;
 }

@@ -12,7 +12,7 @@
 typedef enum { REAL, INTEGER, BOOLEAN, STRING } Kind;
 
 /* DERIVATIVE: an output that contact_derivatives makes; VALID, FIDELITY_USED: outputs that the runtime makes. */
-typedef enum { INPUT, FIXED, TUNABLE, OUTPUT, DERIVATIVE, VALID, FIDELITY_USED, TIME } Role;
+typedef enum { INPUT, FIXED, OUTPUT, DERIVATIVE, VALID, FIDELITY_USED, TIME } Role;
 
 typedef enum { OF_WARNINGS, OF_ERRORS, OF_VALIDITY, OF_SOLVER, CATEGORIES } Category;
 

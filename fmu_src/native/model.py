@@ -139,7 +139,7 @@ def _role(v: Variable) -> str:
     if v.causality == "input":
         return "INPUT"
     if v.causality == "parameter":
-        return "TUNABLE" if v.variability == "tunable" else "FIXED"
+        return "FIXED"
     if v.causality == "independent":
         return "TIME"
     return _OF_RUNTIME.get(v.name, "DERIVATIVE" if v.name.startswith(_DERIVATIVE) else "OUTPUT")

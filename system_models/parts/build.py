@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from fmu_src.flavours import Flavour
+from fmu_src.native.built_in import built_in
 from fmu_src.native.files import binaries
 from fmu_src.package.build import pack
 from fmu_src.package.describe import Model
@@ -33,13 +34,14 @@ def build(
     cannot be used or it has no C, OSError if the file cannot be written or there is no compiler.
     """
     resources.check(part)
+    listed = built_in(variables(part)) if flavour == "native" else variables(part)
     experiment = {"startTime": 0.0, "stopTime": duration, "stepSize": step_size}
     own = {
-        "documentation/index.html": "\n".join(_page(part, variables(part))).encode(),
+        "documentation/index.html": "\n".join(_page(part, listed)).encode(),
         **_files(part, flavour, here),
     }
     model = Model(part.name, resources.guid(part, flavour), part.text, experiment)
-    return pack(model, variables(part), own, out, flavour, python)
+    return pack(model, listed, own, out, flavour, python)
 
 
 def _files(part: Part, flavour: Flavour, here: bool) -> dict[str, bytes]:

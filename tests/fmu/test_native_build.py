@@ -28,7 +28,7 @@ def test_every_variable_stands_in_order_of_its_value_reference() -> None:
     assert '"load", REAL, INPUT, PLACE_OF_INPUT(load), 53.7}' in of["load"]
     assert "REAL, DERIVATIVE, PLACE_OF_OUTPUT(dfriction_dload), 0.0}" in of["dfriction_dload"]
     assert "BOOLEAN, VALID, 0, 0.0}" in of["valid"]
-    assert "INTEGER, TUNABLE, 0, 1.0}" in of["fidelity"]
+    assert "INTEGER, FIXED, 0, 1.0}" in of["fidelity"]
     assert "STRING, FIXED, 0, 0.0}" in of["initial_state"]
 
 
