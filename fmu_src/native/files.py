@@ -15,7 +15,7 @@ from .tables import tables_h
 
 def sources(scene: Scene, fmi: Version) -> dict[str, bytes]:
     """Return name and content of the sources. Raises SceneError if none can be generated for the scene."""
-    model = model_c(built_in(variables(scene)), guid(scene, "native", fmi))
+    model = model_c(built_in(variables(scene)), guid(scene, "native", fmi), guid(scene, "native"))
     return {**build.runtime(fmi), **contact(scene), "model.c": model.encode()}
 
 

@@ -38,7 +38,7 @@ def sources(part: Part, token: str, fmi: Version = 2) -> dict[str, bytes]:
         raise SceneError(
             f"A {part.name} has no native FMU so far ({error}). Take flavour = 'isolated' for the components."
         ) from error
-    texts |= {"tables.h": tables_h(), "model.c": model_c(variables(part), token, ranges=False)}
+    texts |= {"tables.h": tables_h(), "model.c": model_c(variables(part), token, token, ranges=False)}
     return {**native.runtime(fmi), **{name: text.encode() for name, text in texts.items()}}
 
 
