@@ -10,7 +10,7 @@ from sphinx.application import Sphinx
 sys.path.insert(0, str(Path(__file__).parent / "_extensions"))
 
 project = "tribofmu"
-author = copyright = "The tribofmu developers"  # noqa: A001: Sphinx's name
+author = copyright = "The tribofmu developers"
 version = release = _version("tribofmu")
 
 extensions = [

@@ -9,7 +9,6 @@ and year, where no other one of the same source has them, is refused.
 import re
 from collections import defaultdict
 from collections.abc import Iterator
-from pathlib import Path
 
 from benchmarks.folders import ROOT
 

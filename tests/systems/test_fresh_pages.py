@@ -1,4 +1,4 @@
-"""Pages of docs/measured say what they were written from; those that other pages take figures from are of today's sources."""
+"""Pages of docs/measured say what they were written from; those that others cite are of today's sources."""
 
 import re
 from pathlib import Path
@@ -12,8 +12,9 @@ from benchmarks.pages import Page
 
 ROOT = Path(__file__).parents[2]
 MEASURED = ROOT / "docs" / "measured"
-CITING = [ROOT / "docs" / f"{name}.md" for name in ("how_good", "validation", "how-to/run", "how-to/python", "how-to/scenes")]
-CITED = {page for file in CITING for page in re.findall(r"measured/([\w/]+)\.md", file.read_text("utf-8"))}
+CITING = ("how_good.md", "validation.md", "how-to/run.md", "how-to/python.md", "how-to/scenes.md")
+TEXTS = [(ROOT / "docs" / name).read_text("utf-8") for name in CITING]
+CITED = {page for text in TEXTS for page in re.findall(r"measured/([\w/]+)\.md", text)}
 # cited, but not written anew yet: a page leaves this list when its command has been run
 OWED = {
     *("coupling/accuracy", "coupling/cost", "coupling/masters", "film/accuracy", "film/core_accuracy"),
