@@ -62,3 +62,9 @@ def test_gear_elsewhere() -> None:
 def test_every_tutorial_is_followed() -> None:
     tests = {name.removeprefix("test_") for name in globals() if name.startswith("test_")}
     assert {path.stem for path in FOLDER.glob("*.md")} <= tests
+
+
+def test_own_oil() -> None:
+    names = followed("own_oil")
+    assert float(names["friction"].max() / names["friction"].min()) > 1.1
+    assert float(names["film"].max() / names["film"].min()) < 1.02
