@@ -38,6 +38,16 @@ class ElasticPerfectlyPlastic:
         ),
         "h_i are the tribofilms, h_max is their full thickness. U is the plastic depth that plasticity.indentation "
         "counts.",
+        symbols={
+            "H": "hardness under the local tribofilm [Pa]",
+            "H_{steel}": "hardness",
+            "H_{film}": "film_hardness",
+            "c": "tribofilm above the plastic depth, over its full thickness, 0 to 1 [1]",
+            "h_{max}": "full thickness of the tribofilm, tribofilm.full_thickness [m]",
+            "h_1": "tribofilm of body 1 [m]",
+            "h_2": "tribofilm of body 2 [m]",
+            "U": "plastic depth that indentation counts [m]",
+        },
     )
 
     hardness: float = parameter("Pa", "hardness of the bare solids", above=1e6, most=1e12)

@@ -76,6 +76,13 @@ class Newtonian(_Limited):
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_N,   at most Λ p_f",),
         "Λ: limiting_coefficient; 0 means no limit.",
+        symbols={
+            "Λ": "limiting_coefficient",
+        },
+        left_out=(
+            "Shear thinning of the oil: thin films that slide fast rub more than they would, once the Newtonian "
+            "stress exceeds some MPa."
+        ),
     )
     thins: ClassVar[bool] = False
 
@@ -101,6 +108,10 @@ class Eyring(_Limited):
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_E arsinh(τ_N/τ_E),   at most Λ p_f",),
         "Λ: limiting_coefficient; 0 means no limit.",
+        symbols={
+            "Λ": "limiting_coefficient",
+            "τ_E": "eyring_stress",
+        },
     )
     thins: ClassVar[bool] = True
 
@@ -130,6 +141,11 @@ class Carreau(_Limited):
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_N [1 + (τ_N/G)^2]^{(n − 1)/2},   at most Λ p_f",),
         "Λ: limiting_coefficient; 0 means no limit.",
+        symbols={
+            "Λ": "limiting_coefficient",
+            "G": "critical_stress",
+            "n": "exponent",
+        },
     )
     inlet_thinning: ClassVar[Equations] = Equations(
         (
@@ -139,6 +155,12 @@ class Carreau(_Limited):
         "Shear thins the oil in the inlet: the film is φ of the Newtonian one.",
         title="Shear thinning in the inlet: lubricant.flow = local",
         source="Bair, Proc. IMechE J 219 (2005) 69",
+        symbols={
+            "φ": "film thickness over that of a Newtonian oil [1]",
+            "S": "slide-to-roll ratio [1]",
+            "G": "critical_stress",
+            "n": "exponent",
+        },
     )
     thins: ClassVar[bool] = True
 
