@@ -305,7 +305,6 @@ class TemperatureField(_Conductors):
             "q_2": "heat per area into body 2 [W/m2]",
             "k": "conductivity of the oil, lubricant.conductivity [W/(m K)]",
         },
-        left_out="Heat that asperities carry along as they move: temperatures are steady.",
     )
     warms_film: ClassVar[bool] = True
 

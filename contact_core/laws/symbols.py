@@ -76,8 +76,8 @@ COMMON: dict[str, tuple[str, str]] = {
     "A_c": ("", "real contact area over Hertz's area"),
     "h_t": ("m", "thickness of the tribofilm"),
     "w": ("m", "wear depth"),
-    "k_B": ("J/K", "Boltzmann's constant"),
-    "h_P": ("J s", "Planck's constant"),
+    "k_B": ("J/K", "Boltzmann's constant, 1.380649e-23"),
+    "h_P": ("J s", "Planck's constant, 6.62607015e-34"),
     "σ_h": ("Pa", "hydrostatic stress, tension positive"),
 }
 
@@ -86,7 +86,7 @@ _UNITS = re.compile(r"\bin mm\^2/s|\bMPa\b|\bPa\b|oil's|solids'")
 _WORD = re.compile(r"[a-z]{2,}′?(?:_t|_\{10\})?")  # functions, differentials and words
 _NUMBERS = frozenset({"π", "Σ", "Σ_{k}"})
 _DEFINED = re.compile(rf"({_SYMBOL.pattern})(?:\([^()]*\))? [=∝] ")
-_PHRASE = ",   "  # between the equations of one line
+BESIDE = ",   "  # between the equations of one line
 
 
 def in_lines(lines: Sequence[str]) -> Iterator[str]:
@@ -97,7 +97,7 @@ def in_lines(lines: Sequence[str]) -> Iterator[str]:
 
 def defined(lines: Sequence[str]) -> set[str]:
     """Return the symbols that stand alone on the left of an equation."""
-    phrases = (phrase for line in lines for phrase in line.split(_PHRASE))
+    phrases = (phrase for line in lines for phrase in line.split(BESIDE))
     return {match[1] for phrase in phrases if (match := _DEFINED.match(phrase.strip()))}
 
 

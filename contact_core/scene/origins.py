@@ -2,7 +2,7 @@
 
 Files of scenes and sets say it in comments, which are read here and nowhere else:
 
-    viscosity = "4 mPa s"   # the source of this value, or "assumed: why"
+    viscosity = "4 mPa s"   # source of this value, "assumed: why", "chosen: why" if it is no property, or a remark
     [wear]                  # the source of all values of a table that have none of their own
     # Source: ...           (before the first table: about the whole file)
 
@@ -46,10 +46,14 @@ class Origin:
     set_name: str = ""  # of a set, with its file: "azam_oil, lubricants.toml"
 
     @property
-    def assumed(self) -> bool:
-        """True of a value in a file that names no source, or says that it is assumed."""
-        said = self.remark or self.source
-        return self.kind in (Kind.FILE, Kind.SET) and (not said or said.lower().startswith("assumed"))
+    def word(self) -> str:
+        """Where it comes from in one word: "assumed", "chosen", ...; empty if there is a source."""
+        if self.kind not in (Kind.FILE, Kind.SET):
+            return {Kind.SETTING: "set", Kind.ACCURACY: "accuracy", Kind.DEFAULT: "default"}[self.kind]
+        for said in (self.remark.lower(), self.source.lower()):
+            if found := next((word for word in ("assumed", "chosen") if said.startswith(word)), ""):
+                return found
+        return "" if self.remark or self.source else "assumed"
 
 
 class Comments(NamedTuple):

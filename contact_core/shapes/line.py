@@ -124,6 +124,7 @@ class LineGeometry(Bodies):
         ("g = x^2/(2 R_x)",),
         "A line without ends. One period along y is solved and represents all of face_width, which load and outputs "
         "refer to.",
+        symbols={"R_x": "radius_x"},
     )
     deformation: ClassVar[Equations] = Equations(
         (

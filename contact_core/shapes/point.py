@@ -114,7 +114,11 @@ class PointGeometry(Bodies):
 
     name: ClassVar[str] = "point"
     source: ClassVar[str] = PARABOLAS
-    equations: ClassVar[Equations] = Equations(("g = x^2/(2 R_x) + y^2/(2 R_y)",), "A circular or elliptical contact.")
+    equations: ClassVar[Equations] = Equations(
+        ("g = x^2/(2 R_x) + y^2/(2 R_y)",),
+        "A circular or elliptical contact.",
+        symbols={"R_x": "radius_x", "R_y": "radius_y"},
+    )
     deformation: ClassVar[Equations] = HALF_SPACE
     load_balance: ClassVar[Equations] = LOAD_BALANCE
     smooth_film: ClassVar[Equations] = Equations(

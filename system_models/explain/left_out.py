@@ -1,6 +1,7 @@
 """What a scene leaves out: laws and options that are off, and what each costs in trust."""
 
 from collections.abc import Iterator
+from dataclasses import fields
 from typing import Any
 
 from contact_core.scene import Scene
@@ -10,8 +11,17 @@ from fmu_src.package.document.contact import not_modelled
 
 from .model import Absent
 
+_MEANS = (
+    "Fields: one mean film and one mean contact stand for all nodes, by curves fitted to the deterministic level. h_min "
+    "and pressure_max are not known, and no map of pressure, gap, tribofilm or wear."
+)
 # by key and choice, None: not given; laws say it themselves, in their equations
 OPTIONS: dict[str, dict[str | None, str]] = {
+    "film.model": {
+        "regression": _MEANS,
+        "map": _MEANS,
+        "auto": _MEANS,
+    },
     "lubricant.flow": {
         "newtonian": "Thinning of the flow: Reynolds' equation sees the viscosity at the temperature of the inlet. Of "
         "oils that thin under shear, and of warm films, the film comes out too thick; 'local' counts both."
@@ -37,8 +47,14 @@ OPTIONS: dict[str, dict[str | None, str]] = {
 }
 
 
-def of(scene: Scene) -> Iterator[Absent]:
-    """Yield what a scene leaves out: by its laws, by its options, and by every scene."""
+def of(scene: Scene) -> list[Absent]:
+    """Return what a scene leaves out: by its laws and options, table by table, and what every scene leaves out."""
+    tables = [f.name for f in fields(scene)]
+    ours = sorted(_of_choices(scene), key=lambda absent: tables.index(absent.key.partition(".")[0]))
+    return [*ours, *(Absent("", "", f"{said[0].upper()}{said[1:]}.") for said in not_modelled(scene))]
+
+
+def _of_choices(scene: Scene) -> Iterator[Absent]:
     for law in in_use(scene):
         if law.equations.left_out:
             yield Absent(f"{law.path}.model", law.law.name, law.equations.left_out)
@@ -47,13 +63,10 @@ def of(scene: Scene) -> Iterator[Absent]:
             key, _, choice = shown.title.rpartition(": ")[2].partition(" = ")
             yield Absent(key, choice, shown.left_out)
     table = flat(scene.to_dict())
-    for key, costs in OPTIONS.items():
-        choice = table.get(key)
-        there = choice is not None or _given(scene, key)
-        if (cost := costs.get(choice)) and (choice is not None or not there):
-            yield Absent(key, choice or "", cost)
-    for sentence in not_modelled(scene):
-        yield Absent("", "", f"{sentence[0].upper()}{sentence[1:]}.")
+    for option, costs in OPTIONS.items():
+        chosen = table.get(option)
+        if chosen in costs and (chosen is not None or not _given(scene, option)):
+            yield Absent(option, chosen or "", costs[chosen])
 
 
 def _given(scene: Scene, key: str) -> bool:

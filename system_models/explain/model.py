@@ -56,6 +56,7 @@ class Explanation:
     name: str
     description: str
     about: str  # what its file says of itself
+    summary: str  # of its operating point
     sections: tuple[Section, ...]
     left_out: tuple[Absent, ...]
     trust: tuple[str, ...]  # sentences

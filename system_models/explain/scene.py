@@ -42,6 +42,7 @@ def explain(source: str | Path, overrides: Mapping[str, str] | None = None) -> E
         scene.name,
         scene.description,
         about(source),
+        trust.summary(scene),
         tuple(section for section in sections if section.parts),
         tuple(left_out.of(scene)),
         tuple(trust.sentences(scene)),

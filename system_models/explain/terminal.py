@@ -2,15 +2,17 @@
 
 import re
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from contact_core.laws.symbols import COMMON, Symbol
+from contact_core.laws.symbols import BESIDE, COMMON, Symbol
 from contact_core.scene.origins import Kind, Origin
 
 from .model import Absent, Explanation, Part, Section, Value
 
 NARROWEST, WIDEST = 80, 110  # columns
 _MANY = 12  # defaults of one law that are told in a few lines
+Told = dict[tuple[str, ...], str]  # parts whose equations have been told, by these
+
 _SUPERSCRIPTS = str.maketrans("0123456789-−+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻⁺")
 _POWER = re.compile(r"\^(?:\{([−-]?\d+)\}|(\d))")
 _BRACES = re.compile(r"([_^])\{([^{}\s]*)\}")
@@ -31,18 +33,21 @@ def render(explanation: Explanation, columns: int) -> str:
     """Return the text of an explanation, at most `columns` wide where words allow it."""
     width = min(max(columns, NARROWEST), WIDEST)
     sources = Sources()
-    lines = [f"{explanation.name}: {explanation.description}"]
+    lines = _wrapped(f"{explanation.name}: {explanation.description}", width)
     lines += _wrapped(explanation.about, width)
+    lines += ["", *_wrapped(explanation.summary, width)]
     lines += [
         "",
         *_wrapped(
-            "[n]: source, listed at the end. assumed: the file says so, or names no source. default: of tribofmu. "
-            "set: changed by --set. chosen: for control.accuracy.",
+            "Where a number is from: [n] a source, listed at the end; assumed: the file says so, or names no source; "
+            "chosen: no property of the contact; accuracy: chosen for control.accuracy; default: of tribofmu; set: "
+            "changed by --set.",
             width,
         ),
     ]
+    told: Told = {}
     for section in explanation.sections:
-        lines += _section(section, width, sources)
+        lines += _section(section, width, sources, told)
     lines += ["", "LEFT OUT", *_left_out(explanation.left_out, width)]
     lines += ["", "HOW SURE", *_trust(explanation, width)]
     lines += ["", "SYMBOLS", *_common(explanation, width)]
@@ -64,38 +69,49 @@ def _wrapped(text: str, width: int, first: str = "", later: str = "") -> list[st
     )
 
 
-def _section(section: Section, width: int, sources: Sources) -> Iterator[str]:
+def _section(section: Section, width: int, sources: Sources, told: Told) -> Iterator[str]:
     yield ""
     yield section.title.upper()
     for part in section.parts:
         if part.equations or part.values:
             yield ""
-            yield from _part(part, width, sources)
+            yield from _part(part, width, sources, told)
 
 
-def _part(part: Part, width: int, sources: Sources) -> Iterator[str]:
-    cited = f" {sources.cited(part.source)}" if part.source else ""
-    chosen = f"  ({_where(part.origin, sources)})" if part.model and part.origin else ""
+def _part(part: Part, width: int, sources: Sources, told: Told) -> Iterator[str]:
+    cited = f"   law {sources.cited(part.source)}" if part.source else ""
+    chosen = f", choice: {_where(part.origin, sources)}" if part.model and part.origin else ""
     yield f"  {part.path}{': ' + part.model if part.model else ''}{cited}{chosen}"
+    lines = tuple(line for shown in part.equations for line in shown.lines)
+    if lines in told:
+        yield f"      equations as of {told[lines]}"
+    else:
+        told |= {lines: part.path} if lines else {}
+        yield from _equations(part, width, sources)
+    defaults = [v for v in part.values if v.origin.kind is Kind.DEFAULT]
+    if len(defaults) > _MANY:
+        yield from _values([v for v in part.values if v not in defaults], width, sources)
+        few = ", ".join(f"{readable(v.symbol)} {v.key.rpartition('.')[2]} {v.shown}".lstrip() for v in defaults)
+        yield from _wrapped(f"default: {few}", width, "    ", "      ")
+    else:
+        yield from _values(part.values, width, sources)
+
+
+def _equations(part: Part, width: int, sources: Sources) -> Iterator[str]:
     for shown in part.equations:
         if shown.title and shown.title != part.path:
             yield f"    {shown.title}"
         for line in shown.lines:
-            yield from _wrapped(readable(line), width, "      ", "          ")
+            phrases = [line] if len(line) + 6 <= width else line.split(BESIDE)
+            for phrase in phrases:
+                yield from _wrapped(readable(phrase), width, "      ", "          ")
         if shown.source and shown.source != part.source:
             yield f"      {sources.cited(shown.source)}"
     if part.note:
         yield from _wrapped(readable(part.note), width, "    ", "    ")
-    own = [_symbol(s) for s in part.symbols if not s.field and s.symbol not in COMMON or _differs(s)]
+    own = [_symbol(s) for s in part.symbols if (not s.field and s.symbol not in COMMON) or _differs(s)]
     if own:
         yield from _wrapped(f"with {'; '.join(own)}", width, "    ", "      ")
-    defaults = [v for v in part.values if v.origin.kind is Kind.DEFAULT]
-    if len(defaults) > _MANY:
-        yield from _values([v for v in part.values if v not in defaults], width, sources)
-        told = ", ".join(f"{v.key.rpartition('.')[2]} {v.shown}" for v in defaults)
-        yield from _wrapped(f"default: {told}", width, "    ", "      ")
-    else:
-        yield from _values(part.values, width, sources)
 
 
 def _differs(symbol: Symbol) -> bool:
@@ -107,26 +123,24 @@ def _symbol(symbol: Symbol) -> str:
     return f"{readable(symbol.symbol)} {symbol.text}{unit}"
 
 
-def _values(values: "tuple[Value, ...] | list[Value]", width: int, sources: Sources) -> Iterator[str]:
-    if not values:
-        return
-    names = max(len(v.key.rpartition(".")[2]) for v in values)
-    shown = min(max(len(v.shown) for v in values), 22)
-    for v in values:
-        symbol = readable(v.symbol).ljust(7)
-        head = f"    {symbol}{v.key.rpartition('.')[2]:{names}}  {v.shown:{shown}}  {_where(v.origin, sources):8} "
-        remark = f" ({v.origin.remark})" if v.origin.remark else ""
-        yield from _wrapped(f"{v.text}{remark}", width, head, " " * min(len(head), 4 + 7 + names + shown + 13))
+def _values(values: Sequence[Value], width: int, sources: Sources) -> Iterator[str]:
+    symbols = [readable(v.symbol) for v in values]
+    names = [v.key.rpartition(".")[2] for v in values]
+    where = [_where(v.origin, sources) for v in values]
+    rows = list(zip(symbols, names, (v.shown for v in values), where, strict=True))
+    sizes = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for v, row in zip(values, rows, strict=True):
+        head = "    " + "  ".join(cell.ljust(size) for cell, size in zip(row, sizes, strict=True) if size) + "  "
+        remark = v.origin.remark.removeprefix(v.origin.word).removeprefix(": ")
+        yield from _wrapped(f"{v.text} ({remark})" if remark else v.text, width, head, " " * len(head))
 
 
 def _where(origin: Origin, sources: Sources) -> str:
-    """Return in a word where a value comes from."""
-    if origin.kind is Kind.SET:
-        return sources.cited(f"set {origin.set_name}: {origin.source or 'assumed'}")
-    if origin.kind is Kind.FILE:
-        own = origin.source or ("" if not origin.remark else origin.remark)
-        return "assumed" if origin.assumed else sources.cited(f"the scene's file: {own}")
-    return {Kind.SETTING: "set", Kind.ACCURACY: "chosen", Kind.DEFAULT: "default"}[origin.kind]
+    """Return where a value comes from: one word, or the number of its source."""
+    if origin.word:
+        return origin.word
+    of_file = f"set {origin.set_name}" if origin.set_name else "the scene's file"
+    return sources.cited(f"{of_file}: {origin.source or origin.remark}")
 
 
 def _left_out(absent: tuple[Absent, ...], width: int) -> Iterator[str]:

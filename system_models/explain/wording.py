@@ -25,9 +25,9 @@ def written(value: Any, metadata: Mapping[str, Any], origin: Origin) -> str:
     return readable(float(value), unit)
 
 
-def readable(value: float, unit: str) -> str:
+def readable(value: float, unit: str, digits: int = 6) -> str:
     """Return a value in SI with a prefix where its unit may have one."""
     if unit not in _PREFIXED or value == 0.0 or not math.isfinite(value):
-        return f"{value:.6g} {unit}".rstrip()
-    factor, prefix = next(((f, p) for f, p in _PREFIXES if abs(value) >= 0.9999999 * f), (1.0, ""))
-    return f"{value / factor:.6g} {prefix}{unit}"
+        return f"{value:.{digits}g} {unit}".rstrip()
+    factor, prefix = next(((f, p) for f, p in _PREFIXES if abs(value) >= 0.9999999 * f), _PREFIXES[-1])
+    return f"{value / factor:.{digits}g} {prefix}{unit}"

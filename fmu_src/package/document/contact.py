@@ -103,12 +103,17 @@ def validity(scene: Scene) -> Iterator[str]:
         "range_flags reports what makes a result less certain. This scene, at its reference operating point:"
     )
     yield table(("", "here", "meaning"), limits(scene))
-    yield paragraph(f"Not modelled: {', '.join(not_modelled(scene))}.")
+    yield paragraph(f"Not modelled: {', '.join(_not_modelled(scene))}.")
+
+
+def _not_modelled(scene: Scene) -> Iterator[str]:
+    if not scene.lubricant.supply.starves:
+        yield "starvation (lubricant.supply = flooded: the inlet is full)"
+    yield from not_modelled(scene)
 
 
 def not_modelled(scene: Scene) -> Iterator[str]:
-    if not scene.lubricant.supply.starves:
-        yield "starvation (lubricant.supply = flooded: the inlet is full)"
+    """Yield what no law of a scene like this knows."""
     yield from scene.geometry.not_modelled
     yield "heat carried along by moving asperities (temperatures are steady)"
     yield "motion of the bodies across the track"
