@@ -34,7 +34,7 @@ class ElasticPerfectlyPlastic:
     equations: ClassVar[Equations] = Equations(
         (
             "p ≤ H(c),   H(c) = H_{steel} − (H_{steel} − H_{film}) c",
-            "c h_{max} = max[max(h_1, h_2) − U,   (h_1 + h_2 − U)/2,   0]",
+            "c h_{max} = max[max(h_1, h_2) − U, (h_1 + h_2 − U)/2, 0]",
         ),
         "h_i are the tribofilms, h_max is their full thickness. U is the plastic depth that plasticity.indentation "
         "counts.",

@@ -12,8 +12,8 @@ from fmu_src.package.document.contact import not_modelled
 from .model import Absent
 
 _MEANS = (
-    "Fields: one mean film and one mean contact stand for all nodes, by curves fitted to the deterministic level. h_min "
-    "and pressure_max are not known, and no map of pressure, gap, tribofilm or wear."
+    "Fields: one mean film and one mean contact stand for all nodes, by curves fitted to the deterministic level. "
+    "h_min and pressure_max are not known, and no map of pressure, gap, tribofilm or wear."
 )
 # by key and choice, None: not given; laws say it themselves, in their equations
 OPTIONS: dict[str, dict[str | None, str]] = {
