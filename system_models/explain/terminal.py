@@ -10,6 +10,7 @@ from contact_core.scene.origins import Kind, Origin
 from .model import Absent, Explanation, Part, Section, Value
 
 NARROWEST, WIDEST = 80, 110  # columns
+_LONG = 25  # letters of a value that a column has room for
 _MANY = 12  # defaults of one law that are told in a few lines
 Told = dict[tuple[str, ...], str]  # parts whose equations have been told, by these
 
@@ -128,11 +129,16 @@ def _values(values: Sequence[Value], width: int, sources: Sources) -> Iterator[s
     names = [v.key.rpartition(".")[2] for v in values]
     where = [_where(v.origin, sources) for v in values]
     rows = list(zip(symbols, names, (v.shown for v in values), where, strict=True))
-    sizes = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for v, row in zip(values, rows, strict=True):
+    sizes = [min(max(map(len, column)), _LONG) for column in zip(*rows, strict=True)]
+    later = " " * (4 + sum(size + 2 for size in sizes if size))
+    for v, (symbol, name, shown, origin) in zip(values, rows, strict=True):
+        long = len(shown) > _LONG  # it stands alone
+        row = (symbol, name, "" if long else shown, origin)
         head = "    " + "  ".join(cell.ljust(size) for cell, size in zip(row, sizes, strict=True) if size) + "  "
         remark = v.origin.remark.removeprefix(v.origin.word).removeprefix(": ")
-        yield from _wrapped(f"{v.text} ({remark})" if remark else v.text, width, head, " " * len(head))
+        yield from _wrapped(f"{v.text} ({remark})" if remark else v.text, width, head, later)
+        if long:
+            yield f"        {shown}"
 
 
 def _where(origin: Origin, sources: Sources) -> str:
@@ -158,7 +164,7 @@ def _trust(explanation: Explanation, width: int) -> Iterator[str]:
     values = max(len(here) for _, here, _ in explanation.validity)
     for quantity, here, meaning in explanation.validity:
         head = f"  {quantity:{wide}}  {here:{values}}  "
-        yield from _wrapped(meaning, width, head, " " * len(head))
+        yield from _wrapped(meaning, width, head, " " * min(len(head), width - 30))
     yield ""
     for command, text in explanation.commands:
         yield f"  {command}"
