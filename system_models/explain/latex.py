@@ -6,7 +6,7 @@ import unicodedata
 from contact_core.laws.symbols import BESIDE
 
 _TOKEN = re.compile(
-    r"√(?P<root>[^\W\d_]+(?:_(?:\{[^{}]*\}|\w))?)|(?P<unit>mm\^2/s|MPa|Pa(?![\w_′])|oil's|solids')"
+    r"√(?P<root>[^\W\d_]+(?:_(?:\{[^{}]*\}|\w))?)|(?P<unit>mm\^2/s|MPa|Pa(?![\w_′]))|(?P<word>oil's|solids')"
     r"|(?P<name>[^\W\d_]+[\u0300-\u036f′]*)|(?P<script>[_^])(?:\{(?P<inside>[^{}]*)\}|(?P<one>[\w∞]))|(?P<sign>.)",
     re.DOTALL,
 )
@@ -42,6 +42,7 @@ def latex(line: str) -> str:
 
 def _converted(text: str) -> str:
     found = "".join(_token(match, text) for match in _TOKEN.finditer(text))
+    found = re.sub(r" \} *\\text\{ ", " ", found)  # words that stand together
     return re.sub(r" +(?=[ _^])", "", found).strip()
 
 
@@ -49,7 +50,9 @@ def _token(match: re.Match[str], text: str) -> str:
     if match["root"]:
         return rf"\sqrt{{{_converted(match['root'])}}}"
     if match["unit"]:
-        return rf"\mathrm{{{match['unit'].replace('^2', '^{2}').replace(chr(39), '')}}}"
+        return rf"\mathrm{{{match['unit'].replace('^2', '^{2}')}}}"
+    if match["word"]:
+        return rf"\text{{ {match['word']} }}"
     if match["script"]:
         return f"{match['script']}{{{_script(match['inside'] or match['one'])}}}"
     if match["name"]:
