@@ -30,7 +30,10 @@ class ElasticPerfectlyPlastic:
     """
 
     name: ClassVar[str] = "elastic_perfectly_plastic"
-    source: ClassVar[str] = "Azam et al. 2019, doi:10.1016/j.triboint.2018.11.011"
+    source: ClassVar[str] = (
+        "Azam et al. 2019, doi:10.1016/j.triboint.2018.11.011; films pressed in: Andersson et al. 2012, "
+        "doi:10.1039/c2fd00132b"
+    )
     equations: ClassVar[Equations] = Equations(
         (
             "p ≤ H(c),   H(c) = H_{steel} − (H_{steel} − H_{film}) c",

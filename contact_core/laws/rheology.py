@@ -104,7 +104,9 @@ class Eyring(_Limited):
     """tau = tau_E asinh(eta rate / tau_E)."""
 
     name: ClassVar[str] = "eyring"
-    source: ClassVar[str] = "Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129"
+    source: ClassVar[str] = (
+        "Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129; limit: Bair & Winer 1979, doi:10.1115/1.3453342"
+    )
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_E arsinh(τ_N/τ_E),   at most Λ p_f",),
         "Λ: limiting_coefficient; 0 means no limit.",
@@ -137,7 +139,10 @@ class Carreau(_Limited):
     """tau = eta rate [1 + (eta rate / G)^2]^((n - 1) / 2)."""
 
     name: ClassVar[str] = "carreau"
-    source: ClassVar[str] = "Carreau 1972, doi:10.1122/1.549276; in elastohydrodynamics Bair 2007, ISBN 9780444528803"
+    source: ClassVar[str] = (
+        "Carreau 1972, doi:10.1122/1.549276; in elastohydrodynamics Bair 2007, ISBN 9780444528803; limit: Bair & Winer "
+        "1979, doi:10.1115/1.3453342"
+    )
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_N [1 + (τ_N/G)^2]^{(n − 1)/2},   at most Λ p_f",),
         "Λ: limiting_coefficient; 0 means no limit.",

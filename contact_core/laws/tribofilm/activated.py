@@ -172,7 +172,8 @@ class ZhangSpikes(_ByOneStress):
 
     name: ClassVar[str] = "zhang_spikes"
     source: ClassVar[str] = (
-        "Zhang & Spikes 2016, doi:10.1007/s11249-016-0706-7; Zhang, Ewen & Spikes 2022, doi:10.1039/d2me00049k"
+        "Zhang & Spikes 2016, doi:10.1007/s11249-016-0706-7; Zhang, Ewen & Spikes 2022, doi:10.1039/d2me00049k; "
+        "removal: after Akchurin & Bosman 2017, doi:10.1007/s11249-017-0842-8"
     )
     equations: ClassVar[Equations] = Equations(
         (
@@ -212,7 +213,10 @@ class Gosvami(_ByOneStress):
     """
 
     name: ClassVar[str] = "gosvami"
-    source: ClassVar[str] = "Gosvami et al. 2015, doi:10.1126/science.1258788"
+    source: ClassVar[str] = (
+        "Gosvami et al. 2015, doi:10.1126/science.1258788; removal: after Akchurin & Bosman 2017, "
+        "doi:10.1007/s11249-017-0842-8"
+    )
     equations: ClassVar[Equations] = Equations(
         (
             "∂h_t/∂t = A exp[−(E_0 − p_s ΔV)/(k_B T)] (1 − h_t/h_{max}) − r h_t",
