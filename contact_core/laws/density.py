@@ -35,7 +35,7 @@ class Incompressible:
         ("ρ = ρ_0",),
         "Incompressible.",
         left_out=(
-            "Compression of the oil: films under 1 GPa come out a fifth thicker than with model = 'dowson_higginson'."
+            "Compression of the oil: films under 1 GPa come out 15 % thicker than with model = 'dowson_higginson'."
         ),
     )
 

@@ -30,7 +30,8 @@ class NoDoubleLayer:
             "η_a": "apparent viscosity [Pa s]",
         },
         left_out=(
-            "Electric double layers: at most 2 % of the viscosity of thin oil films, but a quarter of that of water."
+            "Electric double layers: some 2 % of the viscosity of thin films of oil at most, but up to 29 % of that of "
+            "water."
         ),
     )
     acts: ClassVar[bool] = False

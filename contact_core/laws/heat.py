@@ -125,8 +125,9 @@ class NoHeat:
             "Q_2": "heat that the contact puts into body 2 [W]",
         },
         left_out=(
-            "Heat of friction: surfaces and oil stay at the temperature of the bodies, so fast sliding rubs too "
-            "much, and hot spots grow no tribofilm faster."
+            "Heat of friction: surfaces and oil stay at the temperature of the bodies. Hot spots grow tribofilm no "
+            "faster, and sliding films rub too much: in a full film of an MTM contact (1.15 GPa, oil of 20 mPa s) by "
+            "10 % at 1 m/s of sliding, by 30 % at 3 m/s."
         ),
     )
     inlet_shear: ClassVar[str] = "none"
@@ -229,8 +230,9 @@ class FlashTemperature(_Conductors):
             "Pe_2": "Péclet number of body 2 [1]",
         },
         left_out=(
-            "Warming of the oil in the contact: only spots of solid contact are warmer than their bodies. Fast "
-            "sliding films rub too much; model = 'field' warms them."
+            "Warming of the oil in the contact: only spots of solid contact are warmer than their bodies. Sliding "
+            "films rub too much: in a full film of an MTM contact (1.15 GPa, oil of 20 mPa s) by 10 % at 1 m/s of "
+            "sliding, by 30 % at 3 m/s; model = 'field' warms them."
         ),
     )
     warms_film: ClassVar[bool] = False

@@ -42,7 +42,7 @@ def render(explanation: Explanation, columns: int) -> str:
         *_wrapped(
             "Where a number is from: [n] a source, listed at the end; assumed: the file says so, or names no source; "
             "chosen: no property of the contact; accuracy: chosen for control.accuracy; default: of tribofmu; set: "
-            "changed by --set.",
+            "by --set, or by a machine's file.",
             width,
         ),
     ]

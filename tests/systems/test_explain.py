@@ -17,6 +17,9 @@ from system_models.explain import left_out
 from system_models.explain.scene import SECTIONS, explain
 from system_models.explain.terminal import NARROWEST, readable, render
 from system_models.explain.wording import readable as number
+from system_models.machines.files import shipped
+from system_models.machines.reading import read
+from system_models.machines.tables import contact_of
 
 OTHERS = {  # laws that the shipped scenes do not use
     "lubricant.set": "m100",
@@ -170,17 +173,28 @@ def test_what_is_switched_on_is_not_said_to_be_left_out():
     assert "film.model" in on - off
 
 
-def test_the_command_prints_it_and_refuses_machines_and_errors(capsys):
+def test_the_command_prints_it_and_refuses_errors(capsys):
     assert main(["explain", "mtm_zddp", "--set", "wear.model=none"]) == 0
     said = capsys.readouterr().out
     assert said.startswith("mtm_zddp: Azam's case B")
     assert "(wear.model: none)" in said
-    assert main(["explain", "gear_fzg_c"]) == 2
-    assert "is a machine" in capsys.readouterr().err
     assert main(["explain", "mtm_zdd"]) == 2
     assert "Did you mean 'mtm_zddp'?" in capsys.readouterr().err
     with pytest.raises(SceneError, match="no key"):
         explain("mtm_zddp", {"wear.bar": "1"})
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_of_a_machine_the_command_tells_the_contact_as_its_file_changes_it(name, capsys):
+    assert main(["explain", name, "--set", "contact.control.longest=100 s"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    base, changes = contact_of(read(name, {"contact.control.longest": "100 s"}).table)
+    assert f"The contact of this machine is the scene {base}," in said
+    assert "longest 100 s set" in said
+    assert f"tribofmu run {name} " in said
+    found = origins(base, Scene.from_toml(base, changes).to_dict(), changes)
+    changed = {key for key, origin in found.items() if origin.kind is Kind.SETTING}
+    assert {key for key in changes if not key.endswith((".set", ".bulk"))} <= changed
 
 
 @pytest.mark.parametrize(
