@@ -68,31 +68,26 @@ def _section(title: str, tables: tuple[str, ...], scene: Scene, found: Mapping[s
 
 
 def _parts(path: str, record: Any, used: Mapping[str, InUse], found: Mapping[str, Origin]) -> Iterator[Part]:
-    """Yield the part of a record and those of the records in it; none of a law that does nothing."""
+    """Yield the part of a record, unless it is a law that does nothing, and those of the records in it."""
     law = used.get(path)
-    if law and not law.law.source:
-        return
-    fields_of_symbols = {} if law is None else {s.field: s.symbol for s in _symbols(law) if s.field}
-    values = tuple(v for v in _values(path, record, fields_of_symbols, found) if v.key not in _NUMERICAL)
-    if law:
-        options = (c.equations for c in law.chosen if c.equations.lines)
-        yield Part(
-            path,
-            law.law.name,
-            found.get(f"{path}.model"),
-            (law.equations, *options),
-            law.notes,
-            law.law.source,
-            values,
-            tuple(_symbols(law)),
-        )
-    else:
-        model = getattr(record, "name", "") if f"{path}.model" in found else ""
-        yield Part(path, model, found.get(f"{path}.model"), (), "", getattr(record, "source", ""), values, ())
+    if law is None or law.law.source:
+        yield _part(path, record, law, found)
     for f in fields(record):
         part = getattr(record, f.name)
         if is_dataclass(part):
             yield from _parts(f"{path}.{f.name}", part, used, found)
+
+
+def _part(path: str, record: Any, law: InUse | None, found: Mapping[str, Origin]) -> Part:
+    choice = found.get(f"{path}.model")
+    symbols = tuple(_symbols(law)) if law else ()
+    values = _values(path, record, {s.field: s.symbol for s in symbols if s.field}, found)
+    told = tuple(v for v in values if v.key not in _NUMERICAL)
+    if law is None:
+        name = getattr(record, "name", "") if choice else ""
+        return Part(path, name, choice, (), "", getattr(record, "source", ""), told, ())
+    options = (chosen.equations for chosen in law.chosen if chosen.equations.lines)
+    return Part(path, law.law.name, choice, (law.equations, *options), law.notes, law.law.source, told, symbols)
 
 
 def _table(title: str, values: tuple[Value, ...]) -> Part:
