@@ -37,8 +37,8 @@ _CAVITATION = {
         "The gap counts as full there, so that oil appears behind a cavity (Reynolds' outlet condition).",
         title="Oil under tension: lubricant.cavitation = reynolds",
         left_out=(
-            "Conservation of oil in cavities: oil appears behind a cavity as if it had never been gone, so what a "
-            "starved second contact gets is too much. lubricant.cavitation = 'mass_conserving' keeps count."
+            "Conservation of oil in cavities: behind a ruptured film the gap counts as full, so oil appears there, and "
+            "what it feeds comes out too thick. 'mass_conserving' keeps count."
         ),
     ),
     "mass_conserving": Equations(
