@@ -81,6 +81,8 @@ COMMON: dict[str, tuple[str, str]] = {
     "σ_h": ("Pa", "hydrostatic stress, tension positive"),
 }
 
+UNEXPLAINED = "not explained by the law"
+
 _SYMBOL = re.compile(r"[^\W\d_]+[\u0300-\u036f′]*(?:_(?:\{[^{}]*\}|[\w∞]))?")
 _UNITS = re.compile(r"\bin mm\^2/s|\bMPa\b|\bPa\b|oil's|solids'")
 _WORD = re.compile(r"[a-z]{2,}′?(?:_t|_\{10\})?")  # functions, differentials and words
@@ -104,7 +106,7 @@ def defined(lines: Sequence[str]) -> set[str]:
 def explained(equations: Equations, law: Any) -> list[Symbol]:
     """Return what the symbols of a law's equations stand for; `law` is its class or record.
 
-    Left out are those that only the equations define. Raises LookupError for a symbol that nothing explains.
+    Left out are those that only the equations define. What nothing explains has the text UNEXPLAINED.
     """
     known = {f.name: f.metadata for f in fields(law)} if hasattr(law, "__dataclass_fields__") else {}
     found = []
@@ -118,5 +120,5 @@ def explained(equations: Equations, law: Any) -> list[Symbol]:
         elif symbol in COMMON:
             found.append(Symbol(symbol, *COMMON[symbol]))
         elif symbol not in defined(equations.lines):
-            raise LookupError(f"Nothing explains '{symbol}' in {equations.lines}.")
+            found.append(Symbol(symbol, "", UNEXPLAINED))
     return found

@@ -68,9 +68,9 @@ def _section(title: str, tables: tuple[str, ...], scene: Scene, found: Mapping[s
 
 
 def _parts(path: str, record: Any, used: Mapping[str, InUse], found: Mapping[str, Origin]) -> Iterator[Part]:
-    """Yield the part of a record, unless it is a law that does nothing, and those of the records in it."""
+    """Yield the part of a record, unless it is a law that only leaves something out, and those of the records in it."""
     law = used.get(path)
-    if law is None or law.law.source:
+    if law is None or law.law.source or not law.equations.left_out:
         yield _part(path, record, law, found)
     for f in fields(record):
         part = getattr(record, f.name)
