@@ -18,6 +18,7 @@ from contact_core.laws.symbols import COMMON, explained
 from contact_core.scene import SelfAffine, Surface
 from contact_core.scene.records import Lubricant
 from contact_core.shapes import GEOMETRIES
+from fmu_src.package.document.markup import inline
 
 from .latex import latex
 
@@ -54,7 +55,7 @@ in the table at the [end](#symbols-of-all-laws). All is in SI.
 
 
 def page() -> str:
-    """Return the page, Markdown with mathematics between dollars."""
+    """Return the page: Markdown, equations in blocks of LaTeX, symbols as HTML."""
     lines = [_INTRODUCTION]
     lines += ["## Bodies: `geometry.model`", ""]
     for geometry in GEOMETRIES:
@@ -68,7 +69,7 @@ def page() -> str:
         for law in laws:
             lines += _law(law)
     lines += ["## Symbols of all laws", "", "| symbol | unit | meaning |", "|---|---|---|"]
-    lines += [f"| ${latex(symbol)}$ | {unit or '1'} | {text} |" for symbol, (unit, text) in COMMON.items()]
+    lines += [f"| {inline(symbol)} | {unit or '1'} | {text} |" for symbol, (unit, text) in COMMON.items()]
     return "\n".join(lines) + "\n"
 
 
@@ -108,7 +109,7 @@ def _titled(law: Any, *shown: Equations) -> Iterator[str]:
 
 def _equations(shown: Equations, law: Any) -> Iterator[str]:
     for line in shown.lines:
-        yield f"$${latex(line)}$$"
+        yield f"```math\n{latex(line)}\n```"
         yield ""
     if shown.note:
         yield _plain(shown.note)
@@ -118,7 +119,7 @@ def _equations(shown: Equations, law: Any) -> Iterator[str]:
         yield "| symbol | unit | meaning | field |"
         yield "|---|---|---|---|"
         for s in own:
-            yield f"| ${latex(s.symbol)}$ | {s.unit or '1'} | {_plain(s.text)} | {f'`{s.field}`' if s.field else ''} |"
+            yield f"| {inline(s.symbol)} | {s.unit or '1'} | {_plain(s.text)} | {f'`{s.field}`' if s.field else ''} |"
         yield ""
     if shown.left_out:
         yield f"Left out: {shown.left_out}"
