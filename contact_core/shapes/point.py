@@ -116,7 +116,7 @@ class PointGeometry(Bodies):
     source: ClassVar[str] = PARABOLAS
     equations: ClassVar[Equations] = Equations(
         ("g = x^2/(2 R_x) + y^2/(2 R_y)",),
-        "A circular or elliptical contact.",
+        "Parabolas along both axes.",
         symbols={"R_x": "radius_x", "R_y": "radius_y"},
     )
     deformation: ClassVar[Equations] = HALF_SPACE

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from sphinx.application import Sphinx
 from sphinx.writers.html5 import HTML5Translator
 
-_SIZE, _EM = 12, 14.0  # points of the font, and of the text around it
+_SIZE, _EM = 12, 10.5  # points of the font, and of the text around it
 
 
 def svg(latex: str) -> str:
