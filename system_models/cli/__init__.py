@@ -2,6 +2,7 @@
 
     main        the table of commands
     listing     list: what is shipped
+    explain     explain: laws, numbers and their sources, what is left out, what to trust
     surfaces    surfaces: what a grid shows of the surfaces
     run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
     stribeck    stribeck: Stribeck curves

@@ -113,19 +113,24 @@ def validity(scene: Scene) -> Iterator[str]:
         "Inputs and parameters outside the ranges in the tables below are refused: valid becomes false. Inside them, "
         "range_flags reports what makes a result less certain. This scene, at its reference operating point:"
     )
-    yield table(("", "here", "meaning"), _limits(scene))
+    yield table(("", "here", "meaning"), limits(scene))
     yield paragraph(f"Not modelled: {', '.join(_not_modelled(scene))}.")
 
 
 def _not_modelled(scene: Scene) -> Iterator[str]:
     if not scene.lubricant.supply.starves:
         yield "starvation (lubricant.supply = flooded: the inlet is full)"
+    yield from not_modelled(scene)
+
+
+def not_modelled(scene: Scene) -> Iterator[str]:
+    """Yield what no law of a scene like this knows."""
     yield from scene.geometry.not_modelled
     yield "heat carried along by moving asperities (temperatures are steady)"
     yield "motion of the bodies across the track"
 
 
-def _limits(scene: Scene) -> Iterator[tuple[str, str, str]]:
+def limits(scene: Scene) -> Iterator[tuple[str, str, str]]:
     """Yield quantity, value and meaning of the limits of the model at this scene."""
     hertz, load = scene.hertz(scene.operation.load), scene.operation.load
     power = 1.0 / scene.shape().power  # maximum pressure grows with the load to the power of its inverse
