@@ -21,6 +21,12 @@
 static inline double smaller(double x, double y) { return y < x ? y : x; }
 static inline double larger(double x, double y) { return y > x ? y : x; }
 static inline double squared(double x) { return x * x; }
+static inline double cubed(double x) { return x * x * x; }
+static inline double fourth_power(double x) { return squared(squared(x)); }
+static inline double eighth_power(double x) { return squared(fourth_power(x)); }
+static inline double fourth_root(double x) { return sqrt(sqrt(x)); }
+static inline double power_0_75(double x) { return sqrt(x) * fourth_root(x); }
+static inline double power_1_5(double x) { return x * sqrt(x); }
 
 static inline double from_bits(uint64_t bits)
 {

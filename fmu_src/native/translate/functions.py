@@ -28,6 +28,7 @@ from .results import (
     with_alike,
     with_given,
 )
+from .rolled import rolled
 from .sources import about, closure_of, expression_of, is_straight, method_after, statements_of
 from .units import Text, Unit, matched, template_of, unique
 from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
@@ -362,7 +363,7 @@ class Translator:
             forward = forwarded(unit, holder, parameters)
             if forward is not None:
                 return CFunction(name, [False] * len(parameters), template, fields, False, forward)
-        block = code.pruned(unit.blocks[0], set())
+        block = rolled(unit, code.pruned(unit.blocks[0], set()))
         if not holes and block and isinstance(block[-1], code.Do) and block[-1].text == "return;":
             block.pop()
         names = code.used(block)
