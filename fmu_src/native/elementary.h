@@ -151,10 +151,10 @@ static inline double own_expm1(double x)
     return (scale - 1.0) + scale * more;
 }
 
-/* x^y of x >= 0 where x is not normal or y is huge or not a number */
+/* x^y of an x that is zero, below the normal numbers, infinite or not a number */
 static inline double power_at_ends(double x, double y)
 {
-    if (y == 0.0 || x == 1.0) {
+    if (y == 0.0) {
         return 1.0;
     }
     if (!(x > 0.0)) {
@@ -179,7 +179,10 @@ static inline double power_of(struct logarithm of_x, double y)
 static inline double own_pow(double x, double y)
 {
     const uint64_t bits = bits_of(x);
-    if (bits - LEAST_NORMAL >= NORMAL || !(fabs(y) < 0x1p60)) {
+    if (x == 1.0) {
+        return 1.0;
+    }
+    if (bits - LEAST_NORMAL >= NORMAL) {
         return power_at_ends(x, y);
     }
     return power_of(log_parts(bits), y);
@@ -198,11 +201,22 @@ static inline double own_tanh(double x)
 static inline double own_asinh(double x)
 {
     const double size = fabs(x);
-    const double square = size * size;
-    const double root = sqrt(1.0 + square);
-    const double found = size > 1e150 ? own_log(size) + 0x1.62e42fefa39efp-1
-                         : size > 1.0 ? own_log(size + root)
-                                      : own_log1p(size + square / (1.0 + root));
+    double found;
+    if (!(size < 1e150)) {
+        found = own_log(size) + LN2;
+    } else {
+        const double square = size * size;
+        const double root = sqrt(1.0 + square);
+        if (size > 1.0) {
+            const struct logarithm of_sum = log_parts(bits_of(size + root));
+            found = of_sum.high + of_sum.low;
+        } else {
+            const double more = size + square / (1.0 + root);
+            const double u = 1.0 + more;
+            const struct logarithm of_u = log_parts(bits_of(u));
+            found = of_u.high + (of_u.low + (more - (u - 1.0)) / u);
+        }
+    }
     return x < 0.0 ? -found : found;
 }
 

@@ -19,6 +19,7 @@ def tables_h() -> str:
         lines = [
             "/* Tables of elementary.h, written by fmu_src.native.tables from decimal numbers. */",
             "",
+            f"#define LN2 {float(two).hex()}",
             f"#define LN2_UPPER {upper.hex()} /* with zeros at its end */",
             f"#define LN2_LOWER {float(two - Decimal(upper)).hex()}",
             f"#define PARTS_PER_LN2 {float(_PARTS / two).hex()}",

@@ -109,7 +109,7 @@ class Translator:
         if found.forward is not None:
             return Entry("", [], filled(found.template, _handed_on(found.forward, given)), False)
         members = [Num(field, hole.kind) for field, hole in zip(found.fields, holes_in(found.template), strict=True)]
-        return Entry(found.name, takes, filled(found.template, members), found.may_fail)
+        return Entry(found.name, takes, with_alike(filled(found.template, members)), found.may_fail)
 
     def texts(self, entries: Sequence["Entry"]) -> list[str]:
         """Return the C functions and structs that entries need, each after those that it uses."""
@@ -315,8 +315,9 @@ class Translator:
             if not first.returned:
                 raise Untranslatable(f"{closure.path} always refuses")
             template = template_of(first.returned)
-            if hands_on:
-                template = handed_on(template, first.returned, parameters)
+            marked = handed_on(template, first.returned, parameters if hands_on else [])
+            if hands_on or len(holes_in(marked)) > 1:
+                template = marked
             self._cache[key] = self._finished(name, closure, bound, template)
         return self._cache[key]
 
