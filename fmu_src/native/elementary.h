@@ -13,6 +13,12 @@
 
 #include "tables.h"
 
+#ifdef __GNUC__
+#define SELDOM static __attribute__((noinline, cold, unused))
+#else
+#define SELDOM static
+#endif
+
 /* bits of a double: 1 of the sign, 11 of the exponent, 52 of the fraction */
 #define LEAST_NORMAL 0x0010000000000000u
 #define NORMAL 0x7fe0000000000000u /* positive normal numbers have bits from LEAST_NORMAL, and so many of them */
@@ -45,21 +51,30 @@ static inline uint64_t bits_of(double x)
 /* The first 26 bits of a double: the product of two such numbers is exact. */
 static inline double upper_half(double x) { return from_bits(bits_of(x) & UPPER_HALF); }
 
-/* e^(high + low) of |high| < 708 and a small low, as 2^(n / 128) and by what share of that it is more */
-static inline double exp_parts(double high, double low, double *more)
+/* a power of e: 2^(n / 256), by what share of that it is more, and the rest of the exponent beyond n ln(2) / 256 */
+struct exponential {
+    double scale;
+    double more;
+    double rest;
+};
+
+/* e^(high + low) of |high| < 708 and a small low. What comes late, low and the ends of series, is added last: a processor
+   does the others in the meantime. */
+static inline struct exponential exp_parts(double high, double low)
 {
     const double rounded = high * PARTS_PER_LN2 + 0x1.8p52; /* its last bits are those of n, a whole number */
     const double n = rounded - 0x1.8p52;
     const uint64_t bits = bits_of(rounded);
-    const double r = (high - n * PART_UPPER) - (n * PART_LOWER - low); /* at most ln(2) / 256: Taylor's series */
+    const double *part = power_of_two[bits & 255];
+    const double r = ((high - n * PART_UPPER) - n * PART_LOWER) + low; /* at most ln(2) / 512: Taylor's series */
     const double r2 = r * r;
-    const double *part = power_of_two[bits & 127];
-    *more = part[1] + (r + r2 * ((0.5 + r * (1.0 / 6.0)) + r2 * (1.0 / 24.0 + r * (1.0 / 120.0))));
-    return from_bits(bits_of(part[0]) + ((bits >> 7) << 52));
+    const double more = (part[1] + r) + r2 * ((0.5 + r * (1.0 / 6.0)) + r2 * (1.0 / 24.0));
+    const struct exponential found = {from_bits(bits_of(part[0]) + ((bits >> 8) << 52)), more, r};
+    return found;
 }
 
 /* e^(high + low) where exp_parts has an end: near the largest number, below the smallest normal one, and beyond */
-static inline double exp_at_ends(double high, double low)
+SELDOM double exp_at_ends(double high, double low)
 {
     if (high > 709.782712893384) {
         return INFINITY;
@@ -68,9 +83,8 @@ static inline double exp_at_ends(double high, double low)
         return high != high ? high : 0.0;
     }
     const double half = high > 0.0 ? 64.0 : -64.0;
-    double more;
-    const double scale = exp_parts(high - half, low, &more);
-    return (scale + scale * more) * (high > 0.0 ? 0x1.425982cf597cdp+92 : 0x1.969d47321e4ccp-93);
+    const struct exponential found = exp_parts(high - half, low);
+    return (found.scale + found.scale * found.more) * (high > 0.0 ? 0x1.425982cf597cdp+92 : 0x1.969d47321e4ccp-93);
 }
 
 static inline double exp_of(double high, double low)
@@ -78,9 +92,8 @@ static inline double exp_of(double high, double low)
     if (!(fabs(high) < 708.0)) {
         return exp_at_ends(high, low);
     }
-    double more;
-    const double scale = exp_parts(high, low, &more);
-    return scale + scale * more;
+    const struct exponential found = exp_parts(high, low);
+    return found.scale + found.scale * found.more;
 }
 
 /* a logarithm as a sum: a large part, and what is missing in it */
@@ -93,20 +106,20 @@ struct logarithm {
 static inline struct logarithm log_parts(uint64_t bits)
 {
     const uint64_t above = bits - LEAST_MANTISSA;
-    const double *near = centre[(above >> 45) & 127];
+    const double *near = centre[(above >> 44) & 255];
     const double n = (double)((int64_t)above >> 52);
     const double m = from_bits(bits - (above & 0xfff0000000000000u)); /* x / 2^n, from about 0.69 to 1.38 */
-    const double r = (m - near[0]) * near[1]; /* at most 1/256: Taylor's series */
+    const double r = (m - near[0]) * near[1]; /* at most 1/512: Taylor's series */
     const double r2 = r * r;
-    const double series = r2 * ((r * (1.0 / 3.0) - 0.5) + r2 * ((r * (1.0 / 5.0) - 0.25) + r2 * (r * (1.0 / 7.0) - 1.0 / 6.0)));
+    const double series = r2 * ((r * (1.0 / 3.0) - 0.5) + r2 * ((r * (1.0 / 5.0) - 0.25) - r2 * (1.0 / 6.0)));
     const double large = n * LN2_UPPER + near[2]; /* exact */
     const double high = large + r;
-    const struct logarithm found = {high, ((large - high) + r) + (series + (near[3] + n * LN2_LOWER))};
+    const struct logarithm found = {high, (((large - high) + r) + (near[3] + n * LN2_LOWER)) + series};
     return found;
 }
 
 /* ln(x) of any finite x > 0 */
-static inline struct logarithm log_of(double x)
+SELDOM struct logarithm log_of(double x)
 {
     const uint64_t bits = bits_of(x);
     if (bits >= LEAST_NORMAL) {
@@ -119,12 +132,23 @@ static inline struct logarithm log_of(double x)
 
 static inline double own_exp(double x) { return exp_of(x, 0.0); }
 
-static inline double own_log(double x)
+/* ln(x) of an x that is not normal, or not above 0 */
+SELDOM double log_at_ends(double x)
 {
-    if (bits_of(x) - LEAST_NORMAL >= NORMAL && !(x > 0.0 && x < INFINITY)) {
+    if (!(x > 0.0 && x < INFINITY)) {
         return x == 0.0 ? -INFINITY : x > 0.0 ? x : NAN;
     }
     const struct logarithm found = log_of(x);
+    return found.high + found.low;
+}
+
+static inline double own_log(double x)
+{
+    const uint64_t bits = bits_of(x);
+    if (bits - LEAST_NORMAL >= NORMAL) {
+        return log_at_ends(x);
+    }
+    const struct logarithm found = log_parts(bits);
     return found.high + found.low;
 }
 
@@ -146,13 +170,14 @@ static inline double own_expm1(double x)
     if (!(fabs(x) < 40.0)) {
         return own_exp(x) - 1.0;
     }
-    double more;
-    const double scale = exp_parts(x, 0.0, &more);
-    return (scale - 1.0) + scale * more;
+    const struct exponential found = exp_parts(x, 0.0);
+    const double r = found.rest, r2 = r * r;
+    const double more = found.more + r2 * r2 * (r * (1.0 / 120.0)); /* which counts where x is small */
+    return (found.scale - 1.0) + found.scale * more;
 }
 
 /* x^y of an x that is zero, below the normal numbers, infinite or not a number */
-static inline double power_at_ends(double x, double y)
+SELDOM double power_at_ends(double x, double y)
 {
     if (y == 0.0) {
         return 1.0;
@@ -172,7 +197,7 @@ static inline double power_of(struct logarithm of_x, double y)
 {
     const double first = upper_half(of_x.high), of_y = upper_half(y);
     const double high = first * of_y; /* exact */
-    return exp_of(high, first * (y - of_y) + ((of_x.high - first) + of_x.low) * y);
+    return exp_of(high, (first * (y - of_y) + (of_x.high - first) * y) + of_x.low * y);
 }
 
 /* x^y of x >= 0 */

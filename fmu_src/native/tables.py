@@ -3,9 +3,9 @@
 import struct
 from decimal import Decimal, localcontext
 
-_PARTS = 128  # of an octave, of the powers
-_STRETCHES = 128  # of an octave, of the logarithms
-_LEAST = 0.6875 + 2.0**-9  # where the octave begins: 1 is the centre of a stretch
+_PARTS = 256  # of an octave, of the powers
+_STRETCHES = 256  # of an octave, of the logarithms
+_LEAST = 0.6875 + 2.0**-10  # where the octave begins: 1 is the centre of a stretch
 _KEPT = 36  # bits of the upper part of a logarithm: whole multiples of ln 2 and it add up exactly
 _DIGITS = 60
 
