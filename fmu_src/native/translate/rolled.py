@@ -92,13 +92,10 @@ class _Nodes:
             levels[each.name] = level
             self.calling[each.name] = isinstance(each, code.Let) and "(" in (each.value or "")
             staged.setdefault(level, []).append(each)
-        late = {
-            name
-            for level, block in staged.items()
-            for name in code.used(block)
-            if levels.get(name, level) < level
-        }
-        arrays = [f"{each.name}[{self.count}]" for each in self.body if isinstance(each, code.Let) and each.name in late]
+        late = {name for level, block in staged.items() for name in code.used(block) if levels.get(name, level) < level}
+        arrays = [
+            f"{each.name}[{self.count}]" for each in self.body if isinstance(each, code.Let) and each.name in late
+        ]
         found: code.Block = [code.Do(f"double {', '.join(arrays)};")] if arrays else []
         head = f"for (int {self.node} = 0; {self.node} < {self.count}; ++{self.node})"
         return found + [code.Loop(head, [self._placed(each, late) for each in staged[k]]) for k in sorted(staged)]
@@ -106,7 +103,9 @@ class _Nodes:
     def _placed(self, statement: code.Statement, late: set[str]) -> code.Statement:
         """Return a statement in which numbers that later loops need are in arrays."""
         assert isinstance(statement, code.Let | code.Put)
-        value = re.sub(r"(?<![\w.])[A-Za-z_]\w*(?!\[)\b", lambda n: f"{n[0]}[{self.node}]" if n[0] in late else n[0], statement.value or "")
+        value = statement.value or ""
+        for name in late & code.names_in(value):
+            value = re.sub(rf"(?<![\w.]){name}\b", f"{name}[{self.node}]", value)
         if statement.name in late:
             return code.Put(f"{statement.name}[{self.node}]", value)
         if isinstance(statement, code.Put):
@@ -127,7 +126,7 @@ class _Nodes:
         gone = {name for each in self.names for name in each}
         last = max(self.sums)
         for i, statement in enumerate(self.block):
-            own = isinstance(statement, code.Let) and statement.name in gone or i in self.sums
+            own = (isinstance(statement, code.Let) and statement.name in gone) or i in self.sums
             if not own and code.used([statement]) & (gone | (sums if i < last else set())):
                 raise _Unlike
         return found
