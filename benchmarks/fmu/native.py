@@ -28,9 +28,9 @@ import fmpy
 from benchmarks.hosts import native_fuzz
 from benchmarks.pages import Page
 from contact_core import Scene
-from fmu_src import build
 from fmu_src.isolated.native.build import headers
 from fmu_src.native.build import runtime
+from fmu_src.package.build import build
 
 SOURCE = Path(__file__).parents[1] / "hosts" / "step_time.c"
 READ = ("friction_force", "friction_coefficient", "power_loss", "heat_flow_1", "heat_flow_2")

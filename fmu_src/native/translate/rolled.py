@@ -15,7 +15,7 @@ LEAST = 4  # terms that are worth a loop
 _NUMBER = r"(?:\d[\d.]*(?:e[-+]?\d+)?|INFINITY)"
 _TERM = re.compile(rf"(-?{_NUMBER}) \* (\w+)")
 _TOKEN = re.compile(rf"(?<![\w.]){_NUMBER}|[A-Za-z_][\w.]*|\s+|.")
-_CALL = re.compile(r"own_\w+\([^()]*\)")  # of numbers that no node changes
+_CALL = re.compile(r"own_\w+\([^()]*\)")  # without another one in it
 
 
 class _Unlike(Exception):  # noqa: N818  # what it is, not that it failed
@@ -125,6 +125,10 @@ class _Nodes:
         sums = {self.block[i].name for i in self.sums}  # type: ignore[union-attr]
         gone = {name for each in self.names for name in each}
         last = max(self.sums)
+        if _assigned(self.block[:last]) & (
+            code.used(self.body) | code.used(self.before)
+        ):  # it may change before the loop
+            raise _Unlike
         for i, statement in enumerate(self.block):
             own = (isinstance(statement, code.Let) and statement.name in gone) or i in self.sums
             if not own and code.used([statement]) & (gone | (sums if i < last else set())):
@@ -140,7 +144,7 @@ class _Nodes:
             if len(set(given)) < self.count or any(name not in self.made for name in given):
                 raise _Unlike
             lets = [self.made[name] for name in given]
-            texts = [_TOKEN.findall(self._shared(each.value or "")) for each in lets]
+            texts = [_TOKEN.findall(text) for text in self._shared([each.value or "" for each in lets])]
             if len(set(map(len, texts))) > 1 or any(each.may_refuse for each in lets):
                 raise _Unlike
             name = self.unit.fresh(_common(given))
@@ -166,19 +170,28 @@ class _Nodes:
             self.before.append(code.Do(f"static const double {self.tables[column]}[{self.count}] = {{{rows}}};"))
         return f"{self.tables[column]}[{self.node}]"
 
-    def _shared(self, text: str) -> str:
-        """Return an expression in which calls that all nodes have alike have a name, from before the loop."""
-        for call in _CALL.findall(text):
-            if not any(name in self.made and self._differs(name) for name in code.names_in(call)):
+    def _shared(self, texts: list[str]) -> list[str]:
+        """Return expressions of all nodes in which calls that they have alike have a name, from before the loop."""
+        for call in _CALL.findall(texts[0]):
+            if all(call in text for text in texts):
                 if call not in self.calls:
-                    self.calls[call] = self.unit.fresh(call[4 : call.index("(")] + "_of_all")
+                    self.calls[call] = self.unit.fresh(call[len("own_") : call.index("(")] + "_of_all")
                     self.before.append(code.Let("double", self.calls[call], call))
-                text = text.replace(call, self.calls[call])
-        return text
+                texts = [text.replace(call, self.calls[call]) for text in texts]
+        return texts
 
-    def _differs(self, name: str) -> bool:
-        """Return True for a name that stands in one node only."""
-        return sum(name in code.names_in(each.value) for each in self.made.values()) < self.count
+
+def _assigned(block: code.Block) -> set[str]:
+    """Return the variables that a block sets anew."""
+    found: set[str] = set()
+    for statement in block:
+        if isinstance(statement, code.Put):
+            found.add(statement.name)
+        elif isinstance(statement, code.If):
+            found |= _assigned(statement.then) | _assigned(statement.otherwise)
+        elif isinstance(statement, code.Loop):
+            found |= _assigned(statement.body)
+    return found
 
 
 def _common(names: Sequence[str]) -> str:
