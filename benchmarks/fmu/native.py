@@ -139,9 +139,8 @@ def main(argv: Sequence[str] | None = None) -> None:
             "the clock, so that what they take more is other work on that CPU, not the FMU's."
         )
         for k, fmu in enumerate(fmus[:: 1 if arguments.fmu else 2]):  # both versions of FMI have the same equations
-            page.say(f"{fmu.stem}:")
-            for line in checked(fmu, folder / f"sources{k}", arguments.sequences, arguments.instances):
-                page.say(f"- {line}")
+            lines = checked(fmu, folder / f"sources{k}", arguments.sequences, arguments.instances)
+            page.say("\n".join([f"{fmu.stem}:", "", *(f"- {line}" for line in lines)]))
     if not arguments.fmu:
         _judge(page, [each for each in found if each.round == "five outputs"])
         page.write()

@@ -116,3 +116,9 @@ def test_arithmetic_that_gives_nothing_is_left_out(tmp_path):
     assert "own_exp" not in in_c.text
     assert "if" not in in_c.text
     assert in_c(3.0, 2.0) == 3.5
+
+
+def test_a_variable_is_declared_with_its_first_value(tmp_path):
+    text = translated(tmp_path, in_a_loop, unknown(2)).text
+    assert "double total = 0.0;" in text
+    assert "double total;" not in text

@@ -13,6 +13,7 @@ import numpy as np
 
 from . import code
 from .arrays import arrays_in, on_arrays
+from .declarations import declared
 from .expressions import Super
 from .interpreter import Scope
 from .results import (
@@ -364,7 +365,7 @@ class Translator:
             forward = forwarded(unit, holder, parameters)
             if forward is not None:
                 return CFunction(name, [False] * len(parameters), template, fields, False, forward)
-        block = rolled(unit, code.pruned(unit.blocks[0], set()))
+        block = declared(rolled(unit, code.pruned(unit.blocks[0], set())))
         if not holes and block and isinstance(block[-1], code.Do) and block[-1].text == "return;":
             block.pop()
         names = code.used(block)
