@@ -9,6 +9,8 @@
     loops         loops that stay loops
     results       what C functions return
     arrays        what a law gives for each element of an array
+    rolled        loops in place of what is written out for each node of a sum
+    declarations  variables begin with their first value
     interpreter   statements of Python
     functions     calls, and C functions: one for each way in which a Python function is used
 

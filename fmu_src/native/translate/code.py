@@ -25,6 +25,7 @@ class Let:
     name: str
     value: str | None
     may_refuse: bool = False  # a call that has to be made even if nothing reads its result
+    changes: bool = False  # a variable that is set anew later
 
 
 @dataclass
@@ -142,7 +143,7 @@ def printed(block: Block, depth: int = 1) -> list[str]:
     for statement in block:
         if isinstance(statement, Let):
             value = "" if statement.value is None else f" = {statement.value}"
-            const = "" if statement.value is None else "const "
+            const = "" if statement.value is None or statement.changes else "const "
             lines += wrapped(f"{const}{statement.ctype} {statement.name}{value};", depth)
         elif isinstance(statement, Put):
             lines += wrapped(f"{statement.name} = {statement.value};", depth)

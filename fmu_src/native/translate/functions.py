@@ -13,6 +13,7 @@ import numpy as np
 
 from . import code
 from .arrays import arrays_in, on_arrays
+from .declarations import declared
 from .expressions import Super
 from .interpreter import Scope
 from .results import (
@@ -28,6 +29,7 @@ from .results import (
     with_alike,
     with_given,
 )
+from .rolled import rolled
 from .sources import about, closure_of, expression_of, is_straight, method_after, statements_of
 from .units import Text, Unit, matched, template_of, unique
 from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
@@ -108,7 +110,7 @@ class Translator:
         if found.forward is not None:
             return Entry("", [], filled(found.template, _handed_on(found.forward, given)), False)
         members = [Num(field, hole.kind) for field, hole in zip(found.fields, holes_in(found.template), strict=True)]
-        return Entry(found.name, takes, filled(found.template, members), found.may_fail)
+        return Entry(found.name, takes, with_alike(filled(found.template, members)), found.may_fail)
 
     def texts(self, entries: Sequence["Entry"]) -> list[str]:
         """Return the C functions and structs that entries need, each after those that it uses."""
@@ -314,8 +316,9 @@ class Translator:
             if not first.returned:
                 raise Untranslatable(f"{closure.path} always refuses")
             template = template_of(first.returned)
-            if hands_on:
-                template = handed_on(template, first.returned, parameters)
+            marked = handed_on(template, first.returned, parameters if hands_on else [])
+            if hands_on or len(holes_in(marked)) > 1:
+                template = marked
             self._cache[key] = self._finished(name, closure, bound, template)
         return self._cache[key]
 
@@ -362,7 +365,7 @@ class Translator:
             forward = forwarded(unit, holder, parameters)
             if forward is not None:
                 return CFunction(name, [False] * len(parameters), template, fields, False, forward)
-        block = code.pruned(unit.blocks[0], set())
+        block = declared(rolled(unit, code.pruned(unit.blocks[0], set())))
         if not holes and block and isinstance(block[-1], code.Do) and block[-1].text == "return;":
             block.pop()
         names = code.used(block)

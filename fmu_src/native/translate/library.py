@@ -54,6 +54,8 @@ def _pair(name: str, first: bool) -> Handler:
             return min(x, y) if first else max(x, y)
         if kind_of(x) != "d" and kind_of(y) != "d":
             return chosen(compare("<" if first else ">", y, x), y, x)
+        if isinstance(x, Num) and isinstance(y, Num) and x.text == y.text:
+            return x
         return call(name, x, y)
 
     return elementwise(one)

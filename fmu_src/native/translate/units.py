@@ -38,7 +38,9 @@ _TAKEN = KEYWORDS.union(  # and what headers of C and elementary.h have
     re.findall(
         r"\w+",
         "why exp log pow sqrt fabs floor ceil round gamma time index j0 j1 y0 y1 jn yn tanh sinh remainder signal "
-        "squared smaller larger centre from_bits bits_of exp_parts exp_of log_of power_of_two refuse",
+        "squared cubed fourth_power eighth_power fourth_root power_0_75 power_1_5 smaller larger centre from_bits "
+        "bits_of upper_half exp_parts exp_at_ends exp_of log_parts log_of log_at_ends power_at_ends power_of "
+        "power_of_two exponential logarithm refuse",
     )
 )
 

@@ -49,7 +49,7 @@ class Num:
     def __sub__(self, other: Any) -> Any:
         if _is(other, 0.0):
             return self
-        return binary("-", self, other, ADD, ADD + 1)
+        return 0.0 if _same(self, other) else binary("-", self, other, ADD, ADD + 1)
 
     def __rsub__(self, other: Any) -> Any:
         return -self if _is(other, 0.0) else binary("-", other, self, ADD, ADD + 1)
@@ -63,10 +63,10 @@ class Num:
     def __truediv__(self, other: Any) -> Any:
         if _is(other, 1.0):
             return self
-        return binary("/", as_double(self), other, MULTIPLY, MULTIPLY + 1)
+        return 1.0 if _same(self, other) else binary("/", as_double(self), other, MULTIPLY, MULTIPLY + 1)
 
     def __rtruediv__(self, other: Any) -> Any:
-        return binary("/", other, as_double(self), MULTIPLY, MULTIPLY + 1)
+        return 0.0 if _is(other, 0.0) else binary("/", other, as_double(self), MULTIPLY, MULTIPLY + 1)
 
     def __mod__(self, other: Any) -> Any:
         return binary("%", self, other, MULTIPLY, MULTIPLY + 1)
@@ -174,7 +174,13 @@ def _sum(one: Any, other: Any) -> Any:
     return one if _is(other, 0.0) else binary("+", one, other, ADD, ADD + 1)
 
 
+def _same(one: Any, other: Any) -> bool:
+    return isinstance(other, Num) and one.text == other.text
+
+
 def _product(one: Any, other: Any) -> Any:
+    if is_number(one) and is_number(other) and (_is(one, 0.0) or _is(other, 0.0)):
+        return 0.0  # all numbers of an equation that is in use are finite
     if _is(one, 1.0):
         return other
     return one if _is(other, 1.0) else binary("*", one, other, MULTIPLY, MULTIPLY + 1)
@@ -187,6 +193,8 @@ def _bits(sign: str, one: Any, other: Any) -> Any:
             unknown = other if isinstance(one, bool) else one
             return (True if known else unknown) if sign == "|" else (unknown if known else False)
         return both(one, other) if sign == "&" else either(one, other)
+    if sign == "|" and (_is(one, 0) or _is(other, 0)):
+        return other if _is(one, 0) else one
     first, second = (literal(each, "i").at_least(COMPARE + 1) for each in (one, other))  # as compilers ask for
     return Num(f"{first} {sign} {second}", "i", BIT)
 
@@ -234,15 +242,23 @@ def call(name: str, *operands: Any) -> Num:
     return Num(f"{name}({', '.join(literal(x).text for x in operands)})")
 
 
+# names in elementary.h: powers that are right to a few units in the last place by multiplications and roots alone
+_POWERS = {0.25: "fourth_root", 0.5: "sqrt", 0.75: "power_0_75", 1.5: "power_1_5", 2.0: "squared", 3.0: "cubed"}
+_POWERS |= {4.0: "fourth_power", 8.0: "eighth_power"}
+
+
 def power(base: Any, exponent: Any) -> Any:
-    """Return a power: of small whole or half exponents without a logarithm."""
+    """Return a power: of small whole or quarter exponents without a logarithm."""
     if not (is_number(base) and is_number(exponent)):
         return NotImplemented
     if isinstance(base, Num) and not isinstance(exponent, Num):
-        special = {1.0: base, 0.5: call("sqrt", base), 2.0: call("squared", base), -1.0: 1.0 / base, 0.0: 1.0}
-        special |= {-0.5: 1.0 / call("sqrt", base), -2.0: 1.0 / call("squared", base)}
-        if float(exponent) in special:
-            return special[float(exponent)]
+        size = abs(float(exponent))
+        if size in (0.0, 1.0):
+            found: Any = base if size else 1.0
+            return found if exponent >= 0.0 else 1.0 / found
+        if size in _POWERS:
+            found = call(_POWERS[size], base)
+            return found if exponent > 0.0 else 1.0 / found
     return call("own_pow", base, exponent)
 
 
