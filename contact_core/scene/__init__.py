@@ -8,9 +8,13 @@
     heights     heights of a body from a file or an array; height_map: the array
     operation   operating points, and the duty of a scene
     case        a scene at an operating point, bound once per step
+    defaults    what a scene that does not say otherwise has
+    hertz_grid  grid of a scene that gives none
     accuracy    grid, tolerance, blocks and instants for an accuracy that is asked for
     checks      what makes a scene or an operating point unusable
+    plausibility  numbers that look like mistakes
     toml        TOML to records and back
+    problems    everything that is wrong with a table, in one refusal
     tunables    numbers that may be changed in a scene
     units       "1.26 GPa" to SI
 
@@ -18,6 +22,7 @@ A scene is checked when it is read; an operating point when it is bound in a cas
 """
 
 from .case import Case, Side
+from .defaults import Assumed
 from .height_map import HeightStatistics, statistics_of
 from .heights import Heights
 from .operation import OperatingPoint, Operation, Step
@@ -28,6 +33,7 @@ from .surface import Surface
 from .tunables import tunables, with_values
 
 __all__ = [
+    "Assumed",
     "Case",
     "Control",
     "HeightStatistics",

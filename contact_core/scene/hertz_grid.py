@@ -1,0 +1,119 @@
+"""Grid of a scene that gives none, from Hertz's contact of its bodies at the largest load.
+
+Points: 2.88 half widths along x, as many along y; where Hertz's contact is an ellipse longer than 1.5 to 1, 2.88 of
+each half width. Lines: besides, the inlet of the film that a formula gives, three times on either side, as nothing
+stands for what lies beyond a line's grid. At least five correlation lengths, unless that more than doubles it. 129
+nodes along x (65 where the ellipse is longer than 4 to 1), or as many as show two in a correlation length.
+"""
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import fields, replace
+from typing import Any, TypeVar
+
+from ..film.lengths import inlet_length
+from ..quantities import UNSOLVED
+from .checks import duty_points
+from .defaults import Assumed
+from .fields import ROOM, SceneFields
+from .operation import OperatingPoint
+
+Scene = TypeVar("Scene", bound=SceneFields)
+
+POINTS = (65, 97, 129, 193, 257, 385, 513)
+HALF_WIDTHS = 1.2 * ROOM  # of Hertz's contact along a side of the grid
+_USUAL, _FEWEST = 129, 65
+_ELLIPSE, _LONG_ELLIPSE = 1.5, 4.0  # longer half width over the shorter one
+_INLETS = 6.0  # lengths of the inlet that a line's grid has room for, on both sides together
+_LENGTHS = 5.0  # correlation lengths along a side
+_NODES = 1.95  # in a correlation length
+PROVISIONAL = {"points": POINTS[0], "domain": "1 m"}
+
+
+def provisional(table: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """Return a scene's table with values in place of a grid that it does not give, and the fields of these."""
+    film = table.get("film")
+    if not isinstance(film, Mapping):
+        return dict(table), []
+    missing = {name: value for name, value in PROVISIONAL.items() if name not in film}
+    solved = film.get("model") not in UNSOLVED  # the others have a grid of their own, for their patches
+    return ({**table, "film": {**film, **missing}} if solved else dict(table)), list(missing)
+
+
+def fitted(scene: Scene, open_fields: Collection[str]) -> Scene:
+    """Return the scene with its open fields of film chosen, and with film.width of a long ellipse; unchecked."""
+    if "domain" in open_fields:
+        scene = _sized(scene)
+    if "points" not in open_fields:
+        return scene
+    solved = scene.film.name not in UNSOLVED
+    least = _FEWEST if solved and _ratio(scene) > _LONG_ELLIPSE else _USUAL
+    nodes = _NODES if solved else 1.0
+    shortest = min((each.length for each in _rough(scene)), default=math.inf)
+    wanted = 1.0 + nodes * scene.film.domain / shortest
+    return with_values(scene, {"film.points": next((n for n in POINTS if n >= max(least, wanted)), POINTS[-1])})
+
+
+def assumed(scene: SceneFields, open_fields: Collection[str]) -> list[Assumed]:
+    """Return the grid that has been chosen for these open fields."""
+    film, why = scene.film, "from Hertz's contact at the largest load"
+    values = {"points": f"{film.points}", "domain": f"{1e3 * film.domain:.3g} mm"}
+    found = [Assumed(f"film.{name}", values[name], why) for name in open_fields]
+    if "domain" in open_fields and film.width > 0.0:
+        found.append(Assumed("film.width", f"{1e3 * film.width:.3g} mm", why))
+    return found
+
+
+def with_values(scene: Scene, values: Mapping[str, Any]) -> Scene:
+    """Return the scene with values of dotted fields, unchecked."""
+    for name, value in values.items():
+        part, field = name.split(".")
+        record = getattr(scene, part)
+        if field in {f.name for f in fields(record)}:  # the regression level has fewer
+            scene = replace(scene, **{part: replace(record, **{field: value})})
+    return scene
+
+
+def room_for_hertz(scene: SceneFields) -> float:
+    """Return the length [m] of a grid that the largest contact and its inlet leave room on."""
+    hertz = scene.hertz(scene.largest_load)
+    square = scene.geometry.bounded_across and scene.film.width == 0.0
+    return HALF_WIDTHS * max(hertz.a, hertz.b if square else 0.0)
+
+
+def inlet(scene: SceneFields, op: OperatingPoint) -> float:
+    """Return the length [m] of the inlet at an operating point, 0 without entrainment."""
+    if op.entrainment_speed == 0.0:
+        return 0.0
+    shape, modulus = scene.shape(op), scene.solids.reduced_modulus
+    smooth = shape.smooth(op.load, op.entrainment_speed, scene.lubricant.viscosity, op.inlet_temperature, modulus)
+    return inlet_length(shape.hertz(op.load, modulus).a, shape, smooth.film)
+
+
+def _sized(scene: Scene) -> Scene:
+    """Return the scene with the length of its grid, and for a long ellipse its width."""
+    hertz, ratio = scene.hertz(scene.largest_load), _ratio(scene)
+    if scene.film.name in UNSOLVED:
+        domain = max(scene.film.domain, room_for_hertz(scene))
+    elif ratio > _ELLIPSE and scene.film.width == 0.0:
+        scene = with_values(scene, {"film.width": float(f"{HALF_WIDTHS * hertz.b:.3g}")})
+        domain = HALF_WIDTHS * hertz.a
+    else:
+        domain = room_for_hertz(scene)
+    if not scene.shape().has_far_field:
+        loaded = [op for _, op in duty_points(scene) if op.load > 0.0]
+        domain = max(domain, 2.0 * hertz.a + _INLETS * max(inlet(scene, op) for op in loaded))
+    longest = max((_LENGTHS * each.length for each in _rough(scene)), default=0.0)
+    domain = longest if domain < longest <= 2.0 * domain else domain
+    return with_values(scene, {"film.domain": float(f"{domain:.3g}")})
+
+
+def _ratio(scene: SceneFields) -> float:
+    """Return the longer over the shorter half width of Hertz's contact; 1 of what is no ellipse."""
+    hertz = scene.hertz(scene.largest_load)
+    ellipse = scene.shape().ellipse_radius is not None
+    return max(hertz.a / hertz.b, hertz.b / hertz.a) if ellipse else 1.0
+
+
+def _rough(scene: SceneFields) -> list[Any]:
+    return [surface for surface in (scene.surface_1, scene.surface_2) if not surface.smooth]
