@@ -22,7 +22,7 @@ A scene is checked when it is read; an operating point when it is bound in a cas
 """
 
 from .case import Case, Side
-from .defaults import Assumed
+from .defaults import Assumed, told
 from .height_map import HeightStatistics, statistics_of
 from .heights import Heights
 from .operation import OperatingPoint, Operation, Step
@@ -48,6 +48,7 @@ __all__ = [
     "Step",
     "Surface",
     "statistics_of",
+    "told",
     "tunables",
     "with_values",
 ]

@@ -8,7 +8,7 @@ with a default of their own in the records (such as film.tolerance) are not list
 
 import copy
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, fields
 from typing import Any, NamedTuple
 
@@ -25,12 +25,14 @@ class Assumed(NamedTuple):
     key: str  # dotted; that of a table where a law is taken as a whole
     value: str  # as it would stand in the scene
     why: str  # where it comes from
+    kind: str = "assumed"  # or "numerical": of how the contact is solved, or without effect on it; or "off"
 
 
 _TABLES = (
     "geometry", "solids", "surface_1", "surface_2", "lubricant", "plasticity", "boundary_friction", "heat",
     "tribofilm", "wear", "film", "control", "operation",
 )  # fmt: skip
+_NO_LAW = "none"
 _OFF = ("heat", "tribofilm", "wear")
 _CHANGING = ("tribofilm", "wear", "oxide", "fatigue")  # with one of them surfaces change from pass to pass
 _STEEL = "of steel in contact with steel, assumed as in the shipped scenes"
@@ -59,14 +61,14 @@ def completed_by_defaults(table: Mapping[str, Any]) -> tuple[dict[str, Any], lis
     """
     filling = _Filling(table)
     for part in _OFF:
-        filling.give(part, "none", "switched off")
+        filling.give(part, _NO_LAW, "switched off", "off")
     for part, (law, why) in _LAWS.items():
         filling.give_law(part, law, why)
     filling.give("plasticity", _PLASTICITY, "hardness of steel")
     for key, value in _CONTROL.items():
         if f"control.{key}" != "control.change" or not filling.has(ACCURACY):  # which chooses the changes itself
-            filling.give(f"control.{key}", value, _NUMERICAL)
-    filling.give("film.model", "deterministic", "solved node by node")
+            filling.give(f"control.{key}", value, "of the blocks over time", _NUMERICAL)
+    filling.give("film.model", "deterministic", "solved node by node", _NUMERICAL)
     if filling.needs("film", "floor"):
         filling.give("film.floor", _FLOOR, "thickness of the adsorbed layer, assumed as in the shipped scenes")
     _surfaces(filling)
@@ -75,6 +77,15 @@ def completed_by_defaults(table: Mapping[str, Any]) -> tuple[dict[str, Any], lis
     _duty(filling)
     filling.name()
     return filling.table, filling.assumed
+
+
+def told(assumed: Sequence[Assumed]) -> str:
+    """Return a line on the values that a scene does not give, empty without any."""
+    said = []
+    for kind in ("assumed", "numerical", "off"):
+        named = [each.key if kind == "off" else f"{each.key} {each.value}" for each in assumed if each.kind == kind]
+        said += [f"{kind}: {', '.join(named)}"] if named else []
+    return "; ".join(said)
 
 
 class _Filling:
@@ -96,7 +107,7 @@ class _Filling:
         """Return True if the table, or a set that it names, gives a dotted key."""
         return self.get(key) is not None
 
-    def give(self, key: str, value: Any, why: str) -> None:
+    def give(self, key: str, value: Any, why: str, kind: str = "assumed") -> None:
         """Set a dotted key unless it is there, or its table is no table."""
         if self.has(key):
             return
@@ -108,7 +119,7 @@ class _Filling:
                 if not isinstance(node, dict):
                     return
             node[last] = copy.deepcopy(value)
-        self.assumed.append(Assumed(key, _text(value), why))
+        self.assumed.append(Assumed(key, _text(value), why, kind))
 
     def give_law(self, path: str, law: Mapping[str, Any], why: str) -> None:
         """Set a law, or the keys of it that a table of this law, or of no named one, leaves out."""
@@ -135,7 +146,7 @@ class _Filling:
     def acts(self, part: str) -> bool:
         """Return True if the table chooses a law other than 'none' for a slot."""
         given = self.get(part)
-        return given is not None and (given.get("model") if isinstance(given, Mapping) else given) != "none"
+        return given is not None and (given.get("model") if isinstance(given, Mapping) else given) != _NO_LAW
 
     def name(self) -> None:
         """Set name and description, and empty tables for those that are missing: their keys will be named."""
@@ -171,15 +182,16 @@ def _surfaces(filling: _Filling) -> None:
         if filling.get(f"{part}.model") in (None, "gaussian"):
             length = max(_LENGTH, _LENGTH_PER_RQ * (rq or 0.0))
             why = "without effect on a smooth body" if rq == 0.0 else "assumed: 8 um as in the shipped scenes, or 40 Rq"
-            filling.give(f"{part}.correlation_length", f"{1e6 * length:.4g} um", why)
-        filling.give(f"{part}.seed", seed, "number of the random surface")
+            kind = _NUMERICAL if rq == 0.0 else "assumed"
+            filling.give(f"{part}.correlation_length", f"{1e6 * length:.4g} um", why, kind)
+        filling.give(f"{part}.seed", seed, "number of the random surface", _NUMERICAL)
 
 
 def _oil(filling: _Filling) -> None:
     """Set what a data sheet of an oil leaves out."""
     oil = "lubricant.viscosity"
     if filling.has(f"{oil}.viscosity_40") or filling.has(f"{oil}.viscosity_100"):
-        filling.give(f"{oil}.model", AstmD341.name, "an oil by its data sheet")
+        filling.give(f"{oil}.model", AstmD341.name, "an oil by its data sheet", _NUMERICAL)
     if filling.get(f"{oil}.model") != AstmD341.name:
         return
     filling.give(f"{oil}.reference_temperature", _REFERENCE, "temperature of the pressure coefficient")
@@ -215,15 +227,15 @@ def _bodies(filling: _Filling) -> None:
     around = 2.0 * math.pi * (filling.number("geometry.radius_x", "m") or 1.0)
     for body in (1, 2):
         why = "a ball's circumference: without wear and tribofilm nothing is kept from pass to pass"
-        filling.give(f"geometry.track_length_{body}", f"{1e3 * around:.5g} mm", why)
+        filling.give(f"geometry.track_length_{body}", f"{1e3 * around:.5g} mm", why, _NUMERICAL)
 
 
 def _duty(filling: _Filling) -> None:
     """Set the duration of what does not change with time, and the time between rows."""
     changes = any(map(filling.acts, _CHANGING)) or filling.has("heat.bulk")
     if not changes and not filling.get("operation.steps") and not filling.get("operation.file"):
-        filling.give("operation.duration", _STEADY, "nothing changes with time")
+        filling.give("operation.duration", _STEADY, "nothing changes with time", _NUMERICAL)
     duration = filling.number("operation.duration", "s")
     if duration is not None:
         row = _ROW if duration >= parse(_ROW, "s", "") else filling.get("operation.duration")
-        filling.give("operation.interval", row, "time between rows of the result")
+        filling.give("operation.interval", row, "time between rows of the result", _NUMERICAL)

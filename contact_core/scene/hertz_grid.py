@@ -58,9 +58,9 @@ def assumed(scene: SceneFields, open_fields: Collection[str]) -> list[Assumed]:
     """Return the grid that has been chosen for these open fields."""
     film, why = scene.film, "from Hertz's contact at the largest load"
     values = {"points": f"{film.points}", "domain": f"{1e3 * film.domain:.3g} mm"}
-    found = [Assumed(f"film.{name}", values[name], why) for name in open_fields]
+    found = [Assumed(f"film.{name}", values[name], why, "numerical") for name in open_fields]
     if "domain" in open_fields and film.width > 0.0:
-        found.append(Assumed("film.width", f"{1e3 * film.width:.3g} mm", why))
+        found.append(Assumed("film.width", f"{1e3 * film.width:.3g} mm", why, "numerical"))
     return found
 
 

@@ -16,7 +16,7 @@ MOST_SLIDING = 4.0  # slide-to-roll ratio of surfaces that move against each oth
 
 def doubts(scene: SceneFields) -> list[str]:
     """Return a sentence, with the way out, on each number that looks like a mistake."""
-    found = [*_of_roughness(scene)]
+    found = [*of_roughness(scene)]
     for name, point in duty_points(scene):
         found += [*_of_motion(name, point)]
         if point.load > 0.0 and point.entrainment_speed != 0.0:
@@ -24,7 +24,8 @@ def doubts(scene: SceneFields) -> list[str]:
     return found
 
 
-def _of_roughness(scene: SceneFields) -> Iterator[str]:
+def of_roughness(scene: SceneFields) -> Iterator[str]:
+    """Yield a sentence for each body that is rougher than the contact is deep, or steeper than surfaces are."""
     hertz, radius = scene.hertz(scene.largest_load), scene.geometry.radius_x
     depth = hertz.a**2 / radius
     for name, surface in (("surface_1", scene.surface_1), ("surface_2", scene.surface_2)):
@@ -64,7 +65,7 @@ def _of_film(scene: SceneFields, name: str, point: OperatingPoint) -> Iterator[s
     if film > 2.0 * min(hertz.a, hertz.b):
         viscosity = float(oil(0.0, point.inlet_temperature))
         yield (
-            f"{name}: the film of smooth bodies would be {film:.2g} m thick in a contact only "
-            f"{2 * hertz.a:.2g} m long. Are load ({point.load:g} N), speeds ({speed:g} m/s), radius_x ({shape.radius_x:g} m) and the oil's "
-            f"viscosity ({viscosity:.3g} Pa s) in the right units?"
+            f"{name}: the film of smooth bodies would be {film:.2g} m thick in a contact only {2 * hertz.a:.2g} m "
+            f"long. Are load ({point.load:g} N), speeds ({speed:g} m/s), radius_x ({shape.radius_x:g} m) and the "
+            f"oil's viscosity ({viscosity:.3g} Pa s) in the right units?"
         )

@@ -157,5 +157,7 @@ def checked(scene: Scene) -> Scene:
     """Return the scene as it is. Raises SceneError with all sentences on what makes it unusable."""
     errors = scene.check()
     if errors:
-        raise SceneError(" ".join(sentence for _, sentence in errors))
+        in_range = all(rule != "range" for rule, _ in errors)
+        causes = list(plausibility.of_roughness(scene)) if in_range else []  # of lengths that follow from it
+        raise SceneError(" ".join([*causes, *(sentence for _, sentence in errors)]))
     return scene

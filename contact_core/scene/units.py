@@ -35,13 +35,13 @@ _BASE: dict[str, tuple[float, Dimension]] = {
 _PREFIX = {"n": 1e-9, "u": 1e-6, "\u00b5": 1e-6, "\u03bc": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6, "G": 1e9}
 _PREFIXABLE = {"m", "g", "s", "K", "N", "Pa", "J", "W", "P", "St"}
 _MEANT = {  # what people write for a unit
-    "C": "degC", "c": "degC", "°": "degC", "deg": "degC", "celsius": "degC", "Celsius": "degC", "F": "degC",
-    "degF": "degC", "sec": "s", "secs": "s", "second": "s", "seconds": "s", "minute": "min", "minutes": "min",
+    "C": "degC", "c": "degC", "°": "degC", "deg": "degC", "celsius": "degC", "Celsius": "degC", "sec": "s", "secs": "s", "second": "s", "seconds": "s", "minute": "min", "minutes": "min",
     "hr": "h", "hrs": "h", "hour": "h", "hours": "h", "RPM": "rpm", "rps": "s^-1", "micron": "um", "microns": "um",
-    "cst": "cSt", "CSt": "cSt", "cp": "cP", "mps": "m/s", "bar": "Pa", "psi": "Pa", "GPA": "GPa", "MPA": "MPa",
+    "cst": "cSt", "CSt": "cSt", "cp": "cP", "mps": "m/s", "GPA": "GPa", "MPA": "MPa",
     "newton": "N", "n": "N", "KN": "kN", "Kg": "kg", "percent": "%",
 }  # fmt: skip
 _COMMA = re.compile(r"\s*[+-]?\d*,\d")
+_THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2}(,\d{3})+(?!\d)")
 _TOKEN = re.compile(r"([A-Za-z\u00b5\u03bc%]+|1)(?:\^?(-?\d+))?$")
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf|nan)\s*(.*)$")
 
@@ -60,7 +60,8 @@ def unit(text: str) -> tuple[float, Dimension]:
             known = match and _lookup(match[1])
             if not match or not known:
                 said = f" Did you mean '{_MEANT[token]}'?" if token in _MEANT else ""
-                raise SceneError(f"'{token}' in '{text}' is not a unit known here.{said} Use SI units and prefixes.")
+                where = f"'{token}' in '{text}'" if token != text else f"'{token}'"
+                raise SceneError(f"{where} is not a unit known here.{said} Use SI units and prefixes.")
             power = sign * int(match[2] or 1)
             factor *= known[0] ** power
             for axis in range(5):
@@ -120,10 +121,8 @@ def _refuse_marks(text: str, name: str) -> None:
         raise SceneError(f"{name} = {text!r} has a ';'. Give one number with its unit, and nothing after it.")
     if _COMMA.match(text):
         point = re.sub(r"^(\s*[+-]?),", r"\g<1>0,", text).replace(",", ".", 1)
-        raise SceneError(
-            f"{name} = {text!r} has a comma, and decimals have a point: write '{point}'. If it separates thousands, "
-            f"write '{text.replace(',', '')}'."
-        )
+        thousands = f" If it separates thousands, write '{text.replace(',', '')}'." if _THOUSANDS.match(text) else ""
+        raise SceneError(f"{name} = {text!r} has a comma, and decimals have a point: write '{point}'.{thousands}")
 
 
 def _without_angle(text: str) -> tuple[int, ...]:

@@ -13,7 +13,7 @@ from typing import Protocol
 
 from contact_core.errors import ContactError
 
-from . import build, check, cosim, fit, listing, run, stribeck, surfaces
+from . import build, check, cosim, fit, listing, new, run, stribeck, surfaces
 from . import map as mapping
 
 
@@ -30,6 +30,7 @@ class Command(Protocol):
 # name: its module, and its line in the help
 COMMANDS: dict[str, tuple[Command, str]] = {
     "list": (listing, "name the shipped scenes and machines"),
+    "new": (new, "write a commented scene to start from"),
     "surfaces": (surfaces, "what a scene's grid shows of its surfaces"),
     "run": (run, "run a scene's contact, or a machine, through its duty"),
     "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),
