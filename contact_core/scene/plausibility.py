@@ -19,9 +19,7 @@ def doubts(scene: SceneFields) -> list[str]:
     found = [*of_roughness(scene)]
     for name, point in duty_points(scene):
         found += [*_of_motion(name, point)]
-        if point.load > 0.0 and point.entrainment_speed != 0.0:
-            found += [*_of_film(scene, name, point)]
-    return found
+    return [*found, *_of_films(scene)]
 
 
 def of_roughness(scene: SceneFields) -> Iterator[str]:
@@ -57,15 +55,17 @@ def _of_motion(name: str, point: OperatingPoint) -> Iterator[str]:
     )
 
 
-def _of_film(scene: SceneFields, name: str, point: OperatingPoint) -> Iterator[str]:
-    shape, modulus = scene.shape(point), scene.solids.reduced_modulus
-    hertz = shape.hertz(point.load, modulus)
-    speed, oil = abs(point.entrainment_speed), scene.lubricant.viscosity
-    film = shape.smooth(point.load, speed, oil, point.inlet_temperature, modulus).film
-    if film > 2.0 * min(hertz.a, hertz.b):
-        viscosity = float(oil(0.0, point.inlet_temperature))
-        yield (
-            f"{name}: the film of smooth bodies would be {film:.2g} m thick in a contact only {2 * hertz.a:.2g} m "
-            f"long. Are load ({point.load:g} N), speeds ({speed:g} m/s), radius_x ({shape.radius_x:g} m) and the "
-            f"oil's viscosity ({viscosity:.3g} Pa s) in the right units?"
-        )
+def _of_films(scene: SceneFields) -> Iterator[str]:
+    oil, modulus = scene.lubricant.viscosity, scene.solids.reduced_modulus
+    for name, point in duty_points(scene):
+        speed, shape, warm = abs(point.entrainment_speed), scene.shape(point), point.inlet_temperature
+        if point.load == 0.0 or speed == 0.0:
+            continue
+        hertz = shape.hertz(point.load, modulus)
+        film = shape.smooth(point.load, speed, oil, warm, modulus).film
+        if film > 2.0 * min(hertz.a, hertz.b):
+            yield (
+                f"{name}: the film of smooth bodies would be {film:.2g} m thick in a contact only {2 * hertz.a:.2g} m "
+                f"long. Are load ({point.load:g} N), speeds ({speed:g} m/s), radius_x ({shape.radius_x:g} m) and the "
+                f"oil's viscosity ({float(oil(0.0, warm)):.3g} Pa s) in the right units?"
+            )

@@ -6,8 +6,6 @@ from typing import NamedTuple
 
 from ..errors import SceneError
 
-HELP = "All else has a default; `tribofmu new NAME` writes a scene to start from."
-
 
 class Missing(NamedTuple):
     """A value that a table has to give."""
@@ -24,6 +22,7 @@ class TableError(SceneError):
         super().__init__()
         self.wrong: list[str] = []  # sentences
         self.missing: list[Missing] = []
+        self.way_out = ""  # a sentence, where several values are missing
 
     @contextmanager
     def collected(self) -> Iterator[None]:
@@ -52,4 +51,4 @@ class TableError(SceneError):
             only = self.missing[0]
             return [f"'{only.key}' is missing. {only.way_out}"]
         listed = "; ".join(f"{missing.key} {missing.text}" for missing in self.missing)
-        return [f"These {len(self.missing)} values are missing: {listed}. {HELP}"]
+        return [f"These {len(self.missing)} values are missing: {listed}. {self.way_out}".rstrip()]

@@ -20,10 +20,12 @@ from .fields import SceneFields
 from .height_map import HeightMap
 from .heights import Heights
 from .operation import OperatingPoint
+from .problems import TableError
 from .surface import SEEDS
 from .toml import build, completed, did_you_mean, folder_of, full_key, located, override, override_order, read_table
 from .units import parse
 
+_TO_START = "All else has a default; `tribofmu new NAME` writes a scene to start from."
 _SEED_STEP = 1_327_217_885  # the odd number nearest to SEEDS over the golden ratio
 
 
@@ -138,7 +140,11 @@ def _built(table: Mapping[str, Any], folders: tuple[Path, ...]) -> tuple[Scene, 
     given, assumed = completed_by_defaults(located(table, *folders))
     chosen, for_accuracy = provisional(completed(given))
     filled, of_grid = hertz_grid.provisional(chosen)
-    scene: Scene = build(Scene, filled, "")
+    try:
+        scene: Scene = build(Scene, filled, "")
+    except TableError as error:
+        error.way_out = _TO_START
+        raise
     first, second = (getattr(scene, name).with_file(name, folders) for name in ("surface_1", "surface_2"))
     scene = replace(scene, surface_1=first, surface_2=second, film=with_map_found(scene.film, folders))
     if of_grid:

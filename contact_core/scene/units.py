@@ -35,10 +35,10 @@ _BASE: dict[str, tuple[float, Dimension]] = {
 _PREFIX = {"n": 1e-9, "u": 1e-6, "\u00b5": 1e-6, "\u03bc": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6, "G": 1e9}
 _PREFIXABLE = {"m", "g", "s", "K", "N", "Pa", "J", "W", "P", "St"}
 _MEANT = {  # what people write for a unit
-    "C": "degC", "c": "degC", "°": "degC", "deg": "degC", "celsius": "degC", "Celsius": "degC", "sec": "s", "secs": "s", "second": "s", "seconds": "s", "minute": "min", "minutes": "min",
-    "hr": "h", "hrs": "h", "hour": "h", "hours": "h", "RPM": "rpm", "rps": "s^-1", "micron": "um", "microns": "um",
-    "cst": "cSt", "CSt": "cSt", "cp": "cP", "mps": "m/s", "GPA": "GPa", "MPA": "MPa",
-    "newton": "N", "n": "N", "KN": "kN", "Kg": "kg", "percent": "%",
+    "C": "degC", "c": "degC", "°": "degC", "deg": "degC", "celsius": "degC", "Celsius": "degC", "sec": "s",
+    "secs": "s", "second": "s", "seconds": "s", "minute": "min", "minutes": "min", "hr": "h", "hrs": "h", "hour": "h",
+    "hours": "h", "RPM": "rpm", "micron": "um", "microns": "um", "cst": "cSt", "CSt": "cSt", "cp": "cP", "mps": "m/s",
+    "GPA": "GPa", "MPA": "MPa", "newton": "N", "n": "N", "KN": "kN", "Kg": "kg", "percent": "%",
 }  # fmt: skip
 _COMMA = re.compile(r"\s*[+-]?\d*,\d")
 _THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2}(,\d{3})+(?!\d)")
