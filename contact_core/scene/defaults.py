@@ -195,26 +195,24 @@ def _oil(filling: _Filling) -> None:
     if filling.get(f"{oil}.model") != AstmD341.name:
         return
     filling.give(f"{oil}.reference_temperature", _REFERENCE, "temperature of the pressure coefficient")
-    cold, hot = (filling.number(f"{oil}.viscosity_{at}", "m2/s") for at in (40, 100))
-    density = filling.number(f"{oil}.density", "kg/m3")
     at = filling.number(f"{oil}.reference_temperature", "K")
-    coefficient = 0.0
-    if None not in (cold, hot, density, at):
-        coefficient = wooster(float(AstmD341(cold, hot, density, 0.0, at)(0.0, at)))  # type: ignore[arg-type]
-    filling.give(
-        f"{oil}.pressure_coefficient",
-        f"{1e9 * coefficient:.3g} GPa^-1",
-        "Wooster's formula for mineral oils, 20 % either way; a polyalphaolefin's is about two thirds of it",
+    cold, hot = (filling.number(f"{oil}.viscosity_{mark}", "m2/s") for mark in (40, 100))
+    coefficient = 0.0  # where reading the data sheet will be refused
+    if cold is not None and hot is not None and at is not None and 2e-6 <= hot < cold:
+        law = AstmD341(cold, hot, 1.0, 0.0, at, expansion=0.0)  # of 1 kg/m3: its viscosity is the kinematic one
+        coefficient = pressure_coefficient(float(law(0.0, at)))
+    why = (
+        "of mineral oils by their viscosity (Gold et al. 2001), a third either way; polyalphaolefins have 3/4 of it"
     )
+    filling.give(f"{oil}.pressure_coefficient", f"{1e9 * coefficient:.3g} GPa^-1", why)
 
 
-def wooster(viscosity: float) -> float:
-    """Return the pressure coefficient [1/Pa] of a mineral oil by its viscosity [Pa s] at p = 0.
+def pressure_coefficient(kinematic: float) -> float:
+    """Return the pressure coefficient [1/Pa] of a mineral oil by its kinematic viscosity [m2/s] at p = 0.
 
-    (0.6 + 0.965 log10 eta) 1e-8 1/Pa, eta in mPa s: Wooster, in Stachowiak & Batchelor, Engineering Tribology, chapter
-    2; at least 5e-9 1/Pa, below which no oil lies.
+    0.9904 (nu / 1 mm2/s)^0.139 / 1e8 Pa: Gold, Schmidt, Dicke, Loos & Assmann, J. Synth. Lubr. 18 (2001) 51.
     """
-    return max((0.6 + 0.965 * math.log10(1e3 * viscosity)) * 1e-8, 5e-9)
+    return 0.9904e-8 * (1e6 * kinematic) ** 0.139
 
 
 def _bodies(filling: _Filling) -> None:
@@ -236,6 +234,5 @@ def _duty(filling: _Filling) -> None:
     if not changes and not filling.get("operation.steps") and not filling.get("operation.file"):
         filling.give("operation.duration", _STEADY, "nothing changes with time", _NUMERICAL)
     duration = filling.number("operation.duration", "s")
-    if duration is not None:
-        row = _ROW if duration >= parse(_ROW, "s", "") else filling.get("operation.duration")
-        filling.give("operation.interval", row, "time between rows of the result", _NUMERICAL)
+    row = filling.get("operation.duration") if duration is not None and duration < parse(_ROW, "s", "") else _ROW
+    filling.give("operation.interval", row, "time between rows of the result", _NUMERICAL)

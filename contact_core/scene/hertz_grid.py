@@ -7,11 +7,11 @@ as much; where Hertz's contact is an ellipse longer than 1.5 to 1, 2.88 of its h
 correlation lengths, unless that more than doubles it.
 
 129 nodes along x (65 where the ellipse is longer than 4 to 1), or as many, up to 257, as show two in a correlation
-length.
+length. A correlation length that is assumed is at least as long as two nodes.
 """
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any, TypeVar
 
@@ -31,6 +31,7 @@ _ELLIPSE, _LONG_ELLIPSE = 1.5, 4.0  # longer half width over the shorter one
 _INLETS = {True: 6.0, False: 10.0}  # that there is room for, on both sides together; with a far field beyond the grid
 _LENGTHS = 5.0  # correlation lengths along a side
 _NODES = 1.95  # in a correlation length
+_LENGTH = "correlation_length"
 PROVISIONAL = {"points": POINTS[0], "domain": "1 m"}
 
 
@@ -68,6 +69,24 @@ def assumed(scene: SceneFields, open_fields: Collection[str]) -> list[Assumed]:
     return found
 
 
+def resolved(
+    scene: Scene, assumed: Sequence[Assumed], open_fields: Collection[str]
+) -> tuple[Scene, tuple[Assumed, ...]]:
+    """Return the scene on its own grid with correlation lengths of two nodes at least where they are assumed.
+
+    The list of what is assumed is returned with them. A grid that the scene gives changes no surface.
+    """
+    kept, least = [], 2.0 * scene.film.spacing
+    for each in assumed:
+        part, _, field = each.key.partition(".")
+        lengthens = field == _LENGTH and "points" in open_fields and not getattr(scene, part).smooth
+        if lengthens and getattr(scene, part).length < _NODES * scene.film.spacing:
+            scene = with_values(scene, {each.key: least})
+            each = each._replace(value=f"{1e6 * least:.4g} um", why="assumed: two nodes of the grid")
+        kept.append(each)
+    return scene, tuple(kept)
+
+
 def with_values(scene: Scene, values: Mapping[str, Any]) -> Scene:
     """Return the scene with values of dotted fields, unchecked."""
     for name, value in values.items():
@@ -90,7 +109,7 @@ def inlet(scene: SceneFields, op: OperatingPoint) -> float:
     if op.entrainment_speed == 0.0:
         return 0.0
     shape, modulus = scene.shape(op), scene.solids.reduced_modulus
-    smooth = shape.smooth(op.load, op.entrainment_speed, scene.lubricant.viscosity, op.inlet_temperature, modulus)
+    smooth = shape.smooth(op.load, abs(op.entrainment_speed), scene.lubricant.viscosity, op.inlet_temperature, modulus)
     return inlet_length(shape.hertz(op.load, modulus).a, shape, smooth.film)
 
 

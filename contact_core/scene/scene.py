@@ -149,8 +149,9 @@ def _built(table: Mapping[str, Any], folders: tuple[Path, ...]) -> tuple[Scene, 
     scene = replace(scene, surface_1=first, surface_2=second, film=with_map_found(scene.film, folders))
     if of_grid:
         _refuse_ranges(scene)  # first, for the contact's size is asked for
-    scene = checked(planned(hertz_grid.fitted(scene, of_grid), for_accuracy))
-    return scene, (*assumed, *hertz_grid.assumed(scene, of_grid))
+    scene = planned(hertz_grid.fitted(scene, of_grid), for_accuracy)
+    scene, taken = hertz_grid.resolved(scene, assumed, of_grid)
+    return checked(scene), (*taken, *hertz_grid.assumed(scene, of_grid))
 
 
 def _refuse_ranges(scene: Scene) -> None:
