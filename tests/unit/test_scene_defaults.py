@@ -61,6 +61,13 @@ def test_what_is_assumed_may_be_written_into_the_scene(ball):
     assert {each.key for each in left} == laws
 
 
+def test_the_page_of_scenes_lists_every_default(ball):
+    page = (Path(__file__).parents[2] / "docs" / "how-to" / "scenes.md").read_text("utf-8")
+    ellipse = keys_of(ball, **{"geometry.radius_y": "200 mm"})
+    assert "film.width" in ellipse
+    assert [key for key in keys_of(ball) | ellipse if f"`{key}`" not in page] == []
+
+
 def test_all_that_is_missing_is_one_sentence(tmp_path):
     empty = tmp_path / "empty.toml"
     empty.touch()
