@@ -201,9 +201,7 @@ def _oil(filling: _Filling) -> None:
     if cold is not None and hot is not None and at is not None and 2e-6 <= hot < cold:
         law = AstmD341(cold, hot, 1.0, 0.0, at, expansion=0.0)  # of 1 kg/m3: its viscosity is the kinematic one
         coefficient = pressure_coefficient(float(law(0.0, at)))
-    why = (
-        "of mineral oils by their viscosity (Gold et al. 2001), a third either way; polyalphaolefins have 3/4 of it"
-    )
+    why = "of mineral oils by their viscosity (Gold et al. 2001), a third either way; polyalphaolefins have 3/4 of it"
     filling.give(f"{oil}.pressure_coefficient", f"{1e9 * coefficient:.3g} GPa^-1", why)
 
 
