@@ -139,7 +139,7 @@ def build(cls: type, table: Any, path: str) -> Any:
         if key not in known:
             where = f"[{path}]" if path else "The scene"
             keys = [*(["model"] if cls in models_of(path) else []), *known]
-            hint = _elsewhere(cls, key, path) or did_you_mean(key, keys)
+            hint = _elsewhere(cls, key, path) or _inside(hints, key, path) or did_you_mean(key, keys)
             problems.wrong.append(f"{where} has no key '{key}'.{hint} Known are {', '.join(keys)}.")
     values = {}
     for name, f in known.items():
@@ -159,6 +159,17 @@ def _elsewhere(cls: type, key: str, path: str) -> str:
     own = [law.name for law in models if law is cls]
     others = [f"'{law.name}'" for law in models if key in {f.name for f in fields(law)}]
     return f" It belongs to model = {' or '.join(others)}, not to '{own[0]}'." if others else ""
+
+
+def _inside(hints: Mapping[str, Any], key: str, path: str) -> str:
+    """Return which tables inside a table have a key that itself does not have, or an empty text."""
+    tables = []
+    for name, hint in hints.items():
+        full = f"{path}.{name}" if path else name
+        records = models_of(full) or ((hint,) if is_dataclass(hint) else ())
+        if any(key in {f.name for f in fields(record)} for record in records):
+            tables.append(f"[{full}]")
+    return f" It belongs to {' or '.join(tables)}." if tables else ""
 
 
 def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:

@@ -29,11 +29,13 @@ _BASE: dict[str, tuple[float, Dimension]] = {
     "eV": (1.602176634e-19, (2, 1, -2, 0, 0)),
     "mol": (6.02214076e23, (0, 0, 0, 0, 0)),  # a number: kJ/mol are energies per molecule
     "St": (1e-4, (2, 0, -1, 0, 0)),
+    "l": (1e-3, (3, 0, 0, 0, 0)),  # as data sheets have densities: kg/l, g/ml
+    "L": (1e-3, (3, 0, 0, 0, 0)),
     "%": (1e-2, (0, 0, 0, 0, 0)),
     "1": (1.0, (0, 0, 0, 0, 0)),
 }
 _PREFIX = {"n": 1e-9, "u": 1e-6, "\u00b5": 1e-6, "\u03bc": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6, "G": 1e9}
-_PREFIXABLE = {"m", "g", "s", "K", "N", "Pa", "J", "W", "P", "St"}
+_PREFIXABLE = {"m", "g", "s", "K", "N", "Pa", "J", "W", "P", "St", "l", "L"}
 _MEANT = {  # what people write for a unit
     "C": "degC", "c": "degC", "°": "degC", "deg": "degC", "celsius": "degC", "Celsius": "degC", "sec": "s",
     "secs": "s", "second": "s", "seconds": "s", "minute": "min", "minutes": "min", "hr": "h", "hrs": "h", "hour": "h",

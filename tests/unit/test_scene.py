@@ -26,6 +26,14 @@ def test_an_unknown_key_is_refused_with_the_key_that_was_meant():
     assert "radius_x" in sentence  # all choices are named
 
 
+@pytest.mark.parametrize(
+    ("key", "place"),
+    [("load", "[operation]"), ("lubricant.viscosity_40", "[lubricant.viscosity]"), ("rq", "[surface_1]")],
+)
+def test_a_key_in_the_wrong_table_is_refused_with_its_own_one(key, place):
+    assert f"has no key '{key.split('.')[-1]}'. It belongs to {place}" in refusal(**{key: "1 N"})
+
+
 def test_an_unknown_table_is_refused_with_the_table_that_was_meant():
     sentence = refusal(lubricants__set="azam_oil")
     assert "The scene has no key 'lubricants'. Did you mean 'lubricant'?" in sentence

@@ -27,6 +27,8 @@ from contact_core.scene import units
         ("46 cSt", "m2/s", 46e-6),
         ("3 um^3/s", "m3/s", 3e-18),
         ("7800 kg/m3", "kg/m3", 7800.0),
+        ("0.87 kg/l", "kg/m3", 870.0),
+        ("0.87 g/ml", "kg/m3", 870.0),
         ("1 J", "N m", 1.0),
         ("0.8 eV", "J", 0.8 * 1.602176634e-19),
         ("65 kJ/mol", "J", 65e3 / 6.02214076e23),  # per molecule
