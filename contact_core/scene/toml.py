@@ -139,8 +139,9 @@ def build(cls: type, table: Any, path: str) -> Any:
         if key not in known:
             where = f"[{path}]" if path else "The scene"
             keys = [*(["model"] if cls in models_of(path) else []), *known]
-            hint = _elsewhere(cls, key, path) or _inside(hints, key, path) or did_you_mean(key, keys)
-            problems.wrong.append(f"{where} has no key '{key}'.{hint} Known are {', '.join(keys)}.")
+            other = _elsewhere(cls, key, path) or did_you_mean(key, keys)
+            hint = _inside(hints, key, path) or f"{other} Known are {', '.join(keys)}."
+            problems.wrong.append(f"{where} has no key '{key}'.{hint}")
     values = {}
     for name, f in known.items():
         full = f"{path}.{name}" if path else name
