@@ -21,6 +21,7 @@ from .checks import duty_points
 from .defaults import Assumed
 from .fields import ROOM, SceneFields
 from .operation import OperatingPoint
+from .units import parse
 
 Scene = TypeVar("Scene", bound=SceneFields)
 
@@ -62,10 +63,10 @@ def fitted(scene: Scene, open_fields: Collection[str]) -> Scene:
 def assumed(scene: SceneFields, open_fields: Collection[str]) -> list[Assumed]:
     """Return the grid that has been chosen for these open fields."""
     film, why = scene.film, "from Hertz's contact at the largest load"
-    values = {"points": f"{film.points}", "domain": f"{1e3 * film.domain:.3g} mm"}
+    values = {"points": f"{film.points}", "domain": _text(film.domain)}
     found = [Assumed(f"film.{name}", values[name], why, "numerical") for name in open_fields]
     if "domain" in open_fields and film.width > 0.0:
-        found.append(Assumed("film.width", f"{1e3 * film.width:.3g} mm", why, "numerical"))
+        found.append(Assumed("film.width", _text(film.width), why, "numerical"))
     return found
 
 
@@ -76,13 +77,13 @@ def resolved(
 
     The list of what is assumed is returned with them. A grid that the scene gives changes no surface.
     """
-    kept, least = [], 2.0 * scene.film.spacing
+    kept, least = [], f"{2e6 * scene.film.spacing:.4g} um"
     for each in assumed:
         part, _, field = each.key.partition(".")
         lengthens = field == _LENGTH and "points" in open_fields and not getattr(scene, part).smooth
         if lengthens and getattr(scene, part).length < _NODES * scene.film.spacing:
-            scene = with_values(scene, {each.key: least})
-            each = each._replace(value=f"{1e6 * least:.4g} um", why="assumed: two nodes of the grid")
+            scene = with_values(scene, {each.key: parse(least, "m", each.key)})
+            each = each._replace(value=least, why="assumed: two nodes of the grid")
         kept.append(each)
     return scene, tuple(kept)
 
@@ -121,14 +122,23 @@ def _sized(scene: Scene) -> Scene:
         domain = max(scene.film.domain, square)
     else:
         if ratio > _ELLIPSE and scene.film.width == 0.0:
-            scene = with_values(scene, {"film.width": float(f"{HALF_WIDTHS * hertz.b:.3g}")})
+            scene = with_values(scene, {"film.width": _as_told(HALF_WIDTHS * hertz.b)})
             square = HALF_WIDTHS * hertz.a
         inlets = _INLETS[scene.shape().has_far_field]
         loaded = [op for _, op in duty_points(scene) if op.load > 0.0]
         domain = max(square, 2.0 * hertz.a + inlets * max(inlet(scene, op) for op in loaded))
     longest = max((_LENGTHS * each.length for each in _rough(scene)), default=0.0)
     domain = longest if domain < longest <= 2.0 * domain else domain
-    return with_values(scene, {"film.domain": float(f"{domain:.3g}")})
+    return with_values(scene, {"film.domain": _as_told(domain)})
+
+
+def _text(length: float) -> str:
+    return f"{1e3 * length:.3g} mm"
+
+
+def _as_told(length: float) -> float:
+    """Return a length [m] as a scene has it that gives its text."""
+    return parse(_text(length), "m", "film")
 
 
 def _ratio(scene: SceneFields) -> float:
