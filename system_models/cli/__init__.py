@@ -2,6 +2,7 @@
 
     main        the table of commands
     listing     list: what is shipped
+    new         new: a commented scene to start from
     explain     explain: laws, numbers and their sources, what is left out, what to trust
     surfaces    surfaces: what a grid shows of the surfaces
     run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
@@ -15,6 +16,7 @@
     scenes      the scene and duty that commands are given
     simulation  simulates a system with a checkpoint
     progress    progress bar, how to continue an unfinished run
+    overwriting  results of other runs are not replaced without a word
     console     notes, the folder of the results, --set
 
 Every module is light to import: what a command needs is loaded when it runs.

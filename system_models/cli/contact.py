@@ -9,6 +9,7 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene
 
 from .console import note, output_folder
+from .overwriting import ask_before
 from .progress import continued_by_resume, note_replaced, shown
 from .scenes import chosen, contact, microroughness, warn
 
@@ -29,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
     warn(scene)
     with alone(folder):
-        return _run_in(folder, scene, duty, fields, arguments.resume)
+        return _run_in(folder, scene, duty, fields, arguments)
 
 
 def _fields(given: str | None, scene: Scene, duty: "Duty") -> "Fields | None":
@@ -45,11 +46,15 @@ def _fields(given: str | None, scene: Scene, duty: "Duty") -> "Fields | None":
     return Fields(scene, duty, points, int(given))
 
 
-def _run_in(folder: Path, scene: Scene, duty: "Duty", fields: "Fields | None", resume: bool) -> int:
-    count = len(fields.times) if fields else 0
+def _run_in(folder: Path, scene: Scene, duty: "Duty", fields: "Fields | None", arguments: argparse.Namespace) -> int:
+    from ..run import origin
+
+    count, resume = len(fields.times) if fields else 0, arguments.resume
     checkpoint = _checkpoint(folder, scene, duty, count, resume)
     if resume and not checkpoint.saved and (code := _finished(folder, scene, duty, count)) is not None:
         return code
+    if not checkpoint.saved:
+        ask_before(folder, origin.attributes(scene, duty, count), arguments.force)
     with continued_by_resume(lambda: checkpoint.file if checkpoint.count else None):
         dataset = _simulate(scene, duty, checkpoint, fields)
         code = _report(dataset, scene, duty, folder, fields)

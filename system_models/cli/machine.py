@@ -6,6 +6,7 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from .console import note, output_folder, refuse_empty
+from .scenes import tell_assumed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,12 +19,13 @@ if TYPE_CHECKING:
 
 def run(arguments: argparse.Namespace) -> int:
     """Carry out the command and return the exit code. Raises ContactError with a sentence if it cannot."""
-    from ..machines import reading, timeline
+    from ..machines import reading, tables, timeline
 
     machine = reading.read(arguments.scene, _changes(arguments))
     if arguments.duty:
         machine.table["duty"] = timeline.with_file(machine.table.get("duty", {}), Path(arguments.duty).absolute())
     assembly = reading.assemble(machine)
+    tell_assumed(tables.scene_and_assumed(machine.table)[1])
     if arguments.ssp:
         return _export(assembly, arguments.ssp, arguments.flavour or "isolated")
     folder = output_folder(arguments.out, machine.name)
@@ -70,7 +72,9 @@ def _run_in(folder: Path, assembly: "Assembly", kind: str, arguments: argparse.N
             code = _report(dataset, folder, assembly, kind)
             return code if unchecked else _check(dataset, folder, assembly, system, code)
 
-        return carry_out(system, settings, assembly.name, folder, arguments.resume, report, **attributes)
+        return carry_out(
+            system, settings, assembly.name, folder, arguments.resume, arguments.force, report, **attributes
+        )
 
 
 def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:

@@ -9,7 +9,7 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
 from .console import add_settings, note, output_folder
-from .scenes import refuse_machine, warn
+from .scenes import refuse_machine, tell_assumed, warn
 
 if TYPE_CHECKING:
     from ..run.map_build import Built, Order
@@ -59,7 +59,8 @@ def run(arguments: argparse.Namespace) -> int:
     from ..store.checkpoint import alone
 
     refuse_machine(arguments.scene)
-    scene = Scene.from_toml(arguments.scene, dict(arguments.settings))
+    scene, assumed = Scene.read(arguments.scene, dict(arguments.settings))
+    tell_assumed(assumed)
     given = {name: text for name in OPTIONS if (text := getattr(arguments, name)) is not None}
     order = map_build.Order(
         scene,

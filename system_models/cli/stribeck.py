@@ -12,6 +12,7 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
 from .console import output_folder
+from .overwriting import ask_before
 from .scenes import add_scene, contact, warn
 
 if TYPE_CHECKING:
@@ -34,11 +35,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--slowest", metavar="U", default="0.003", help="slowest entrainment speed in m/s (default: 0.003)"
     )
     parser.add_argument("--points", metavar="N", type=int, default=12, help="speeds of a sweep (default: %(default)s)")
-    parser.add_argument("--srr", metavar="R", help="slide-to-roll ratio (u1 - u2) / u_e (default: that of the scene)")
+    parser.add_argument(
+        "--srr",
+        metavar="R",
+        help="slide-to-roll ratio (u1 - u2) / u_e, such as 0.1 or '10 %%' (default: that of the scene)",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Measure, print and write the curves; return the exit code."""
+    from ..run.origin import attributes
     from ..run.stribeck import Curves, Plan
     from ..store.checkpoint import alone
 
@@ -49,12 +55,13 @@ def run(arguments: argparse.Namespace) -> int:
         _plain_or_with_unit("--fastest", arguments.fastest, "m/s"),
         _plain_or_with_unit("--slowest", arguments.slowest, "m/s"),
         arguments.points,
-        None if arguments.srr is None else _plain_or_with_unit("--srr", arguments.srr, ""),
+        _slide_roll_ratio(arguments.srr),
     )
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
     warn(scene)
     curves = Curves(plan)
     with alone(folder):
+        ask_before(folder, attributes(scene, duty), arguments.force, "stribeck")
         try:
             _sweep(scene, duty, curves)
         except KeyboardInterrupt:
@@ -70,6 +77,19 @@ def _rubbing_times(words: Sequence[str]) -> list[float]:
         return [60.0 * float(word) for word in re.split(r"[,\s]+", " ".join(words)) if word]
     except ValueError:
         raise ContactError(f"--times = '{' '.join(words)}' must be numbers of minutes, such as 0,5,30.") from None
+
+
+def _slide_roll_ratio(text: str | None) -> float | None:
+    """Return the ratio of --srr; a plain number above 2, at which a body rests, looks like per cent."""
+    if text is None:
+        return None
+    ratio = _plain_or_with_unit("--srr", text, "")
+    if abs(ratio) > 2.0 and "%" not in text:
+        raise ContactError(
+            f"--srr = {text} is {100.0 * ratio:g} %, and from 200 % on the surfaces move against each other. Write "
+            f"--srr '{text} %' for per cent, or '{100.0 * ratio:g} %' if that is meant."
+        )
+    return ratio
 
 
 def _plain_or_with_unit(option: str, text: str, unit: str) -> float:
