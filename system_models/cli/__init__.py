@@ -4,6 +4,8 @@
     listing     list: what is shipped
     surfaces    surfaces: what a grid shows of the surfaces
     run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
+    report      report: a run as one HTML page
+    compare     compare: runs beside each other, with their error bands
     stribeck    stribeck: Stribeck curves
     fit         fit: constants of a scene from measured numbers
     map         map: a scene's map for film.model = "map"

@@ -13,7 +13,7 @@ from typing import Protocol
 
 from contact_core.errors import ContactError
 
-from . import build, check, cosim, fit, listing, run, stribeck, surfaces
+from . import build, check, compare, cosim, fit, listing, report, run, stribeck, surfaces
 from . import map as mapping
 
 
@@ -32,6 +32,8 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "list": (listing, "name the shipped scenes and machines"),
     "surfaces": (surfaces, "what a scene's grid shows of its surfaces"),
     "run": (run, "run a scene's contact, or a machine, through its duty"),
+    "report": (report, "show the results of a run as one HTML page"),
+    "compare": (compare, "show runs beside each other, with their error bands, in a table and an HTML page"),
     "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),
     "fit": (fit, "fit constants of a scene to measured films, friction or wear"),
     "map": (mapping, "make the map of a scene for film.model = 'map', by solved contacts"),

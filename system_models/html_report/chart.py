@@ -19,7 +19,7 @@ DASHES = ("", "7 3", "2 3", "9 3 2 3", "12 4", "4 4", "1 2")
 
 _WIDTH, _HEIGHT = 460.0, 250.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62.0, 10.0, 10.0, 42.0
-_POINTS = 500  # of a line, about: what a screen can show
+_POINTS = 300  # of a line, about: what a screen can show
 _TICKS = 5
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 _ROOM = 0.06  # above and below lines
@@ -186,7 +186,7 @@ def _grid(scale: _Scale, chart: Chart) -> list[str]:
 
 def _index(words: str) -> str:
     """Return a label with what follows an underscore as an index."""
-    return re.sub(r"_(\w+)", r'<tspan dy="4" font-size="9">\1</tspan><tspan dy="-4">\u200b</tspan>', text(words))
+    return re.sub(r"_(\w+)", r'<tspan dy="4" font-size="9">\1</tspan><tspan dy="-4">&#8203;</tspan>', text(words))
 
 
 def _number(value: float) -> str:

@@ -63,9 +63,9 @@ def _of_parts(run: Run) -> Iterator[Chart]:
         part, _, variable = name.rpartition(".")
         if part in run.contacts or part in ("master", "") or variable in _LEFT_OUT or "[" in variable:
             continue
-        if run.dataset[name].dtype.kind == "f" and np.ptp(run.dataset[name].values) > 0.0:
+        if run.dataset.variables[name].dtype.kind == "f" and np.ptp(run.dataset.variables[name].values) > 0.0:
             stem = variable.split("_")[0]
-            groups.setdefault((part, run.dataset[name].attrs.get("units", "1"), stem), []).append(name)
+            groups.setdefault((part, run.dataset.variables[name].attrs.get("units", "1"), stem), []).append(name)
     for (part, si, stem), names in list(groups.items())[:_MOST]:
         yield _together(run, part, si, stem, names[:_TOGETHER])
 
@@ -74,7 +74,7 @@ def _together(run: Run, part: str, si: str, stem: str, names: list[str]) -> Char
     clock, found = time_unit(run.reached), {name: values(run.dataset, name) for name in names}
     unit = unit_for(si, np.concatenate([*found.values()]), "rise" in names[0])
     lines = [
-        Line(name.rpartition(".")[2].replace("_", " "), clock.of(run.dataset["time"].values), unit.of(y), None, place)
+        Line(name.rpartition(".")[2].replace("_", " "), clock.of(run.dataset.variables["time"].values), unit.of(y), None, place)
         for place, (name, y) in enumerate(found.items())
     ]
     title = lines[0].label if len(lines) == 1 else stem

@@ -64,7 +64,7 @@ def sections(run: Run) -> str:
 def _none(run: Run) -> str:
     if not run.of_contact:
         return ""
-    solved = "blocks_mixed" in run.dataset and bool(np.any(run.dataset["iterations"].values))
+    solved = "blocks_mixed" in run.dataset and bool(np.any(run.dataset.variables["iterations"].values))
     words = (
         "This run kept no maps. Run it again with --fields 6 to see pressure, gap, tribofilm and wear at six times."
         if solved
@@ -83,35 +83,35 @@ def _fields(dataset: xr.Dataset) -> Iterator[_Field]:
     for key, title, colours, caption in _MAPS:
         values = _values(dataset, key)
         if values is not None and np.any(values[np.isfinite(values)]):
-            along = dataset["x" if key in ("pressure", "fluid_pressure", "solid_pressure", "gap") else ALONG].values
+            along = dataset.variables["x" if key in ("pressure", "fluid_pressure", "solid_pressure", "gap") else ALONG].values
             yield _Field(key, title, colours, caption, values, along)
 
 
 def _values(dataset: xr.Dataset, key: str) -> Array | None:
     name, _, body = key.partition("_")
     if name == "surface":
-        heights = np.asarray(dataset[f"new_heights_{body}"].values, dtype=float)
-        film = np.asarray(dataset[f"tribofilm_map_{body}"].values, dtype=float)
+        heights = np.asarray(dataset.variables[f"new_heights_{body}"].values, dtype=float)
+        film = np.asarray(dataset.variables[f"tribofilm_map_{body}"].values, dtype=float)
         return heights + film - _lost(dataset, body)
-    return np.asarray(dataset[key].values, dtype=float) if key in dataset else None
+    return np.asarray(dataset.variables[key].values, dtype=float) if key in dataset else None
 
 
 def _lost(dataset: xr.Dataset, body: str) -> Array:
     """Return the depth worn off, pressed in and broken out of a body [m]."""
     kept = [f"{kind}_map_{body}" for kind in ("wear", "plastic", "pits")]
-    return np.asarray(sum(np.asarray(dataset[name].values, dtype=float) for name in kept if name in dataset))
+    return np.asarray(sum(np.asarray(dataset.variables[name].values, dtype=float) for name in kept if name in dataset))
 
 
 def _viewer(dataset: xr.Dataset, fewer: bool) -> str:
     """Return the section in which a script draws the maps."""
     fields = list(_fields(dataset))
     stride = _stride(fields)
-    y, times = dataset["y"].values, dataset[TIME].values
+    y, times = dataset.variables["y"].values, dataset.variables[TIME].values
     clock, length = time_unit(float(times[-1])), unit_for("m", [np.ptp(y), *(np.ptp(each.along) for each in fields)])
     about = {
         "times": [f"{float(clock.of(time)):.4g} {clock.name}" for time in times],
         "length": length.name,
-        "half": [float(length.of(float(dataset[f"half_width_{axis}"]))) for axis in "xy"],
+        "half": [float(length.of(float(dataset.variables[f"half_width_{axis}"]))) for axis in "xy"],
         "stops": {name: _stops(name) for name in {each.colours for each in fields}},
         "maps": [_described(each, y, stride, length.factor) for each in fields],
     }
@@ -144,7 +144,7 @@ def _viewer(dataset: xr.Dataset, fewer: bool) -> str:
 
 def _zero(dataset: xr.Dataset) -> str:
     """Return a sentence on maps that are zero throughout."""
-    zero = [title for key, title, *_ in _MAPS if key in dataset and not np.any(np.nan_to_num(dataset[key].values))]
+    zero = [title for key, title, *_ in _MAPS if key in dataset and not np.any(np.nan_to_num(dataset.variables[key].values))]
     return f" Zero everywhere and therefore not listed: {', '.join(zero).lower()}." if zero else ""
 
 
@@ -234,10 +234,10 @@ _KINDS = (("tribofilm", "Tribofilm", False), ("wear", "Wear", True), ("plastic",
 
 def _across(dataset: xr.Dataset, kind: str, title: str, body: int, down: bool) -> Iterator[Chart]:
     """Yield the chart of a profile at some of the times, if it is not zero."""
-    profiles = np.asarray(dataset[f"{kind}_profile_{body}"].values, dtype=float)
+    profiles = np.asarray(dataset.variables[f"{kind}_profile_{body}"].values, dtype=float)
     if not profiles.any():
         return
-    unit, times = unit_for("m", profiles), dataset[TIME].values
+    unit, times = unit_for("m", profiles), dataset.variables[TIME].values
     clock = time_unit(float(times[-1]))
     used = [k for k in range(len(times)) if profiles[k].any()]
     chosen = sorted({used[round(k)] for k in np.linspace(0, len(used) - 1, min(len(used), _PROFILES))})
@@ -252,8 +252,8 @@ def _across(dataset: xr.Dataset, kind: str, title: str, body: int, down: bool) -
 
 def _y_axis(dataset: xr.Dataset) -> tuple[Array, str, tuple[tuple[float, float], ...]]:
     """Return y in the unit people read, its label, and the track if it ends within the grid."""
-    y = np.asarray(dataset["y"].values, dtype=float)
-    unit, half = unit_for("m", [np.ptp(y)]), float(dataset["half_width_y"])
+    y = np.asarray(dataset.variables["y"].values, dtype=float)
+    unit, half = unit_for("m", [np.ptp(y)]), float(dataset.variables["half_width_y"])
     edge = float(unit.of(half))
     return unit.of(y), f"y {unit.label}", ((-edge, edge),) if half < y.max() else ()
 
@@ -262,9 +262,9 @@ def _cross_section(dataset: xr.Dataset, body: int) -> Chart:
     """Return the chart of a body's surface along a line across the track: as new and as it is at the end."""
     middle = dataset.sizes[ALONG] // 2
     last = dataset.isel({TIME: -1})
-    new = np.asarray(last[f"new_heights_{body}"].values, dtype=float)[:, middle]
+    new = np.asarray(last.variables[f"new_heights_{body}"].values, dtype=float)[:, middle]
     solid = new - _lost(last, str(body))[:, middle]
-    film = solid + np.asarray(last[f"tribofilm_map_{body}"].values, dtype=float)[:, middle]
+    film = solid + np.asarray(last.variables[f"tribofilm_map_{body}"].values, dtype=float)[:, middle]
     x, label, edges = _y_axis(dataset)
     unit = unit_for("m", np.concatenate([new, film]))
     lines = [

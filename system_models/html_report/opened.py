@@ -62,7 +62,7 @@ class Run:
     @property
     def reached(self) -> float:
         """Time reached [s]."""
-        return float(self.dataset["time"].values[-1])
+        return float(self.dataset.variables["time"].values[-1])
 
     @property
     def of_contact(self) -> bool:
@@ -110,7 +110,7 @@ def _finished(folder: Path, result: Path) -> Run:
         raise ContactError(f"'{result}' has no rows along time, so it is not of `tribofmu run` or `tribofmu cosim`.")
     dataset = dataset.assign_attrs({name: _plain(value) for name, value in dataset.attrs.items()})
     files = {name.name: _sha256(name) for name in (result, folder / "resolved.nc", folder / "corrected.nc") if name.exists()}
-    run = Run(folder, dataset, float(dataset["time"].values[-1]), True, files=files)
+    run = Run(folder, dataset, float(dataset.variables["time"].values[-1]), True, files=files)
     if "scene_json" in dataset.attrs:
         found = json.loads(dataset.attrs.get(ERRORS, "{}"))
         return _with_scene(replace(run, causes=found), json.loads(dataset.attrs["scene_json"]))
@@ -164,7 +164,7 @@ def _unfinished(folder: Path) -> Run:
     run = _with_scene(Run(folder, xr.Dataset(), 0.0, False), table)
     dataset = _rows(checkpoint, _CONTACT).assign_attrs(attributes)
     if run.scene is None:
-        return replace(run, dataset=dataset, planned=float(dataset["time"].values[-1]))
+        return replace(run, dataset=dataset, planned=float(dataset.variables["time"].values[-1]))
     planned, found = run.scene.operation.duration, at_point(run.scene, checkpoint)
     run = replace(run, dataset=dataset, planned=planned, causes=found)
     return _with_maps(run, checkpoint, about) if checkpoint.kept else run

@@ -2,12 +2,11 @@
 
 import re
 from importlib.resources import files
-from pathlib import Path
 from string import Template
 
 from . import histories, machine, maps, origin, scene, summary, trust
 from .markup import text
-from .opened import Run, open_run
+from .opened import Run
 
 _HEADING = re.compile(r'<section id="([\w-]+)"><h2>(.*?)</h2>')
 
@@ -15,12 +14,6 @@ _SHORT = {  # in the navigation, where the heading of a section is long
     "maps": "Maps", "profiles": "Profiles", "errors": "Errors", "scene": "As run", "modelled": "What was modelled",
     "machine": "Machine", "origin": "Versions",
 }  # fmt: skip
-
-
-def write(folder: Path, path: Path) -> Path:
-    """Write the page of the run in a folder and return its path. Raises ContactError if there is no run."""
-    path.write_text(page(open_run(folder)), "utf-8")
-    return path
 
 
 def page(run: Run) -> str:

@@ -12,6 +12,7 @@ from ..store.results import ERROR
 from .chart import Array, Chart, Line
 from .shown import Unit, time_unit, unit_for
 
+_ALL = slice(None)
 _CAPPED = 999.0  # lambda ratios from here on are at their cap, which says nothing
 
 
@@ -99,17 +100,17 @@ def constants(dataset: xr.Dataset, panels: tuple[Panel, ...]) -> Iterator[str]:
 def _changes(dataset: xr.Dataset, names: list[str]) -> bool:
     """Return True if a variable changes, or has an error band, along a result of some rows."""
     return any(
-        dataset.sizes["time"] < 2 or np.ptp(dataset[name].values) > 0.0 or f"{name}{ERROR}" in dataset.variables
+        dataset.sizes["time"] < 2 or np.ptp(dataset.variables[name].values) > 0.0 or f"{name}{ERROR}" in dataset.variables
         for name in names
     )
 
 
 def chart(dataset: xr.Dataset, panel: Panel, names: list[str], shaded: tuple[tuple[float, float], ...] = ()) -> Chart:
     """Return one chart against time, with the bands that the result has; `shaded` are spans of time [s]."""
-    clock = time_unit(float(dataset["time"].values[-1]))
+    clock = time_unit(float(dataset.variables["time"].values[-1]))
     unit = unit_of(dataset, names, panel.quantities[0])
     lines = [
-        Line(label, clock.of(dataset["time"].values), unit.of(values(dataset, name)), band(dataset, name, unit), place)
+        Line(label, clock.of(dataset.variables["time"].values), unit.of(values(dataset, name)), band(dataset, name, unit), place)
         for place, (name, label) in enumerate(zip(names, panel.labels, strict=False))
     ]
     at = tuple((float(clock.of(begin)), float(clock.of(end))) for begin, end in shaded)
@@ -125,20 +126,20 @@ def chart(dataset: xr.Dataset, panel: Panel, names: list[str], shaded: tuple[tup
     )
 
 
-def unit_of(dataset: xr.Dataset, names: list[str], quantity: str) -> Unit:
-    """Return the unit in which variables of the same quantity are read."""
-    largest = np.concatenate([values(dataset, name) for name in names])
+def unit_of(dataset: xr.Dataset, names: list[str], quantity: str, rows: slice = _ALL) -> Unit:
+    """Return the unit in which variables of the same quantity are read, by some of their rows."""
+    largest = np.concatenate([values(dataset, name)[rows] for name in names])
     known = TABLE.get(quantity)
-    return unit_for(dataset[names[0]].attrs.get("units", "1"), largest, bool(known and known.relative))
+    return unit_for(dataset.variables[names[0]].attrs.get("units", "1"), largest, bool(known and known.relative))
 
 
 def values(dataset: xr.Dataset, name: str) -> Array:
     """Return a variable against time in SI; lambda ratios at their cap are not known."""
-    found = np.asarray(dataset[name].values, dtype=float)
+    found = np.asarray(dataset.variables[name].values, dtype=float)
     return np.where(found > _CAPPED, np.nan, found) if name.endswith("lambda_ratio") else found
 
 
 def band(dataset: xr.Dataset, name: str, unit: Unit) -> Array | None:
     """Return the half width of a variable's error band in a unit, if the result has it."""
     stated = f"{name}{ERROR}"
-    return unit.factor * np.asarray(dataset[stated].values, dtype=float) if stated in dataset.variables else None
+    return unit.factor * np.asarray(dataset.variables[stated].values, dtype=float) if stated in dataset.variables else None

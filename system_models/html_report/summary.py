@@ -55,7 +55,7 @@ def _end(run: Run, panel: Panel, contact: str) -> Iterator[tuple[str, float, flo
         full = run.of(contact, name)
         if full in run.dataset:
             last = values(run.dataset, full)[-1:]
-            unit = unit_of(run.dataset.isel(time=slice(-1, None)), [full], name)
+            unit = unit_of(run.dataset, [full], name, slice(-1, None))
             half = band(run.dataset, full, unit)
             yield label, float(unit.of(last)[0]), None if half is None else float(half[-1]), unit
 
@@ -80,7 +80,7 @@ def _of_contacts(run: Run) -> str:
     """Return the end values of the contacts of a machine, those with the least lambda ratio first."""
     if not run.contacts:
         return ""
-    ratio = {name: float(run.dataset[run.of(name, "lambda_ratio")].values[-1]) for name in run.contacts}
+    ratio = {name: float(run.dataset.variables[run.of(name, "lambda_ratio")].values[-1]) for name in run.contacts}
     ordered = sorted(run.contacts, key=lambda name: ratio[name])[:_MOST]
     rows = []
     for contact in ordered:

@@ -56,7 +56,7 @@ def raised(run: Run) -> dict[RangeFlag, list[str]]:
     found: dict[RangeFlag, list[str]] = {}
     for contact in run.contacts:
         name = run.of(contact, "range_flags")
-        together = int(np.bitwise_or.reduce(run.dataset[name].values.astype(int))) if name in run.dataset else 0
+        together = int(np.bitwise_or.reduce(run.dataset.variables[name].values.astype(int))) if name in run.dataset else 0
         for flag in RangeFlag:
             if together & flag:
                 found.setdefault(flag, []).append(contact)
@@ -68,8 +68,8 @@ def invalid(run: Run) -> tuple[tuple[float, float], ...]:
     names = [name for name in run.dataset.data_vars if str(name).rpartition(".")[2] == "valid"]
     if not names:
         return ()
-    bad = ~np.logical_and.reduce([run.dataset[name].values.astype(bool) for name in names])
-    return tuple(spans(run.dataset["time"].values, bad))
+    bad = ~np.logical_and.reduce([run.dataset.variables[name].values.astype(bool) for name in names])
+    return tuple(spans(run.dataset.variables["time"].values, bad))
 
 
 def spans(times: "np.ndarray[tuple[int], np.dtype[np.float64]]", marked: np.ndarray) -> Iterator[tuple[float, float]]:
@@ -106,8 +106,8 @@ def _by_cause(run: Run) -> Iterator[str]:
     rows = []
     for name in names:
         error = Error(**run.causes[name])
-        value = float(run.dataset[name].values[-1])
-        unit = unit_for(run.dataset[name].attrs["units"], [value])
+        value = float(run.dataset.variables[name].values[-1])
+        unit = unit_for(run.dataset.variables[name].attrs["units"], [value])
         halves = [unit.factor * getattr(error, cause) for cause in used]
         together = unit.factor * error.together
         relative = f"{abs(error.together / value):.0%}" if value else "–"
@@ -165,7 +165,7 @@ def _of_contacts(run: Run) -> Iterator[str]:
     kinds = {"error_friction": "friction", "error_film": "film thickness", "error_wear": "wear"}
     rows = []
     for contact in run.contacts:
-        last = [float(run.dataset[run.of(contact, key)].values[-1]) for key in kinds if run.of(contact, key) in run.dataset]
+        last = [float(run.dataset.variables[run.of(contact, key)].values[-1]) for key in kinds if run.of(contact, key) in run.dataset]
         rows.append([contact, *(f"{error:.0%}" for error in last)])
     yield table(["contact", *kinds.values()], rows, "numbers", "Half widths relative to the value")
     yield paragraph("Contacts at the regression level state one cause: its fitted curves.", "quiet")
@@ -175,10 +175,10 @@ def _of_coupling(run: Run) -> Iterator[str]:
     """Yield the largest errors by the communication steps, if the run was checked with double steps."""
     found = []
     for name in map(str, run.dataset.data_vars):
-        error = run.dataset[name].attrs.get(COUPLING)
+        error = run.dataset.variables[name].attrs.get(COUPLING)
         largest = float(np.abs(values(run.dataset, name)).max()) if error is not None else 0.0
         if error is not None and largest > 0.0:
-            found.append((float(error) / largest, name, float(error), run.dataset[name].attrs["units"]))
+            found.append((float(error) / largest, name, float(error), run.dataset.variables[name].attrs["units"]))
     yield heading("By the coupling of the parts")
     if not found:
         yield paragraph(
@@ -211,12 +211,12 @@ def _flags(run: Run) -> str:
 
 
 def _marked(run: Run, flag: RangeFlag, contacts: list[str]) -> np.ndarray:
-    columns = [(run.dataset[run.of(each, "range_flags")].values.astype(int) & int(flag)) > 0 for each in contacts]
+    columns = [(run.dataset.variables[run.of(each, "range_flags")].values.astype(int) & int(flag)) > 0 for each in contacts]
     return np.asarray(np.logical_or.reduce(columns))
 
 
 def _flag_row(run: Run, flag: RangeFlag, contacts: list[str]) -> list[object]:
-    times, marked = run.dataset["time"].values, _marked(run, flag, contacts)
+    times, marked = run.dataset.variables["time"].values, _marked(run, flag, contacts)
     clock, count = time_unit(run.reached), int(marked.sum())
     found = list(spans(times, marked))
     begin, end = found[0][0], found[-1][1]
@@ -250,7 +250,7 @@ def _strip(run: Run, flags: dict[RangeFlag, list[str]]) -> str:
         top = k * row + 4.0
         parts.append(f'<text class="end" x="150" y="{top + 12:g}">{text((flag.name or "").replace("_", " ").lower())}</text>')
         parts.append(f'<line class="grid" x1="158" x2="{width - 10}" y1="{top + 8:g}" y2="{top + 8:g}"/>')
-        for begin, until in spans(run.dataset["time"].values, _marked(run, flag, contacts)):
+        for begin, until in spans(run.dataset.variables["time"].values, _marked(run, flag, contacts)):
             left, right = (158.0 + (width - 168.0) * each / end for each in (begin, until))
             parts.append(f'<rect class="up" x="{left:.1f}" y="{top:g}" width="{max(right - left, 2.0):.1f}" height="16"/>')
     bottom = len(flags) * row + 18.0
@@ -275,18 +275,18 @@ def _solver(run: Run) -> str:
 def _of_blocks(dataset: xr.Dataset) -> Iterator[str]:
     """Yield what drove the blocks of the evolution, and how the instants of the maps were solved."""
     kinds = {"dry": "dry contact at the measured share of load", "mixed": "mixed lubrication", "fallback": "dry contact in place of a mixed solution that failed"}
-    counts = {text_: int(dataset[f"blocks_{kind}"].values[-1]) for kind, text_ in kinds.items() if f"blocks_{kind}" in dataset}
+    counts = {text_: int(dataset.variables[f"blocks_{kind}"].values[-1]) for kind, text_ in kinds.items() if f"blocks_{kind}" in dataset}
     total = sum(counts.values())
     if total:
         rows = [[words, count, f"{count / total:.0%}"] for words, count in counts.items()]
         yield table(["pressures that drove tribofilm and wear", "blocks", "share"], rows, "numbers")
     if "instant_converged" in dataset:
-        names = str(dataset["instant_route"].attrs["flag_meanings"]).split()
-        clock = time_unit(float(dataset["time"].values[-1]))
+        names = str(dataset.variables["instant_route"].attrs["flag_meanings"]).split()
+        clock = time_unit(float(dataset.variables["time"].values[-1]))
         rows = [
             [f"{float(clock.of(time)):.4g} {clock.name}", names[int(route)], "yes" if converged else "NO"]
             for time, route, converged in zip(
-                dataset["field_time"].values, dataset["instant_route"].values, dataset["instant_converged"].values, strict=True
+                dataset.variables["field_time"].values, dataset.variables["instant_route"].values, dataset.variables["instant_converged"].values, strict=True
             )
         ]
         yield table(["instant of the maps", "solved as", "converged"], rows, "numbers")
@@ -294,17 +294,17 @@ def _of_blocks(dataset: xr.Dataset) -> Iterator[str]:
 
 def _iterations(dataset: xr.Dataset) -> Iterator[str]:
     """Yield iterations and shares of solutions that did not converge, against time."""
-    clock = time_unit(float(dataset["time"].values[-1]))
+    clock = time_unit(float(dataset.variables["time"].values[-1]))
     shown = (
         ("iterations", "Film iterations", "iterations", "In the step that ends at each row."),
         ("unconverged", "Solutions that did not converge", "share", "Of the film solutions of the last block."),
     )
     figures = []
     for name, title, symbol, caption in shown:
-        if name in dataset and np.any(dataset[name].values):
-            line = Line(symbol, clock.of(dataset["time"].values), values(dataset, name))
+        if name in dataset and np.any(dataset.variables[name].values):
+            line = Line(symbol, clock.of(dataset.variables["time"].values), values(dataset, name))
             figures.append(figure(Chart(title, f"time {clock.label}", f"{symbol} [–]", [line], caption), f"solver-{name}"))
-    if "unconverged" in dataset and np.any(dataset["iterations"].values) and not np.any(dataset["unconverged"].values):
+    if "unconverged" in dataset and np.any(dataset.variables["iterations"].values) and not np.any(dataset.variables["unconverged"].values):
         yield paragraph("Every film solution converged.", "good")
     if figures:
         yield f'<div class="charts">{"".join(figures)}</div>'
@@ -317,8 +317,8 @@ def _of_master(dataset: xr.Dataset, finished: bool) -> Iterator[str]:
         yield heading("Cost of each part")
         yield printed(cosim_report.costs(dataset).splitlines())
     if "master.step_size" in dataset:
-        clock, sizes = time_unit(float(dataset["time"].values[-1])), values(dataset, "master.step_size")
-        line = Line("step", clock.of(dataset["time"].values[1:]), sizes[1:])
+        clock, sizes = time_unit(float(dataset.variables["time"].values[-1])), values(dataset, "master.step_size")
+        line = Line("step", clock.of(dataset.variables["time"].values[1:]), sizes[1:])
         if len(sizes) > 2 and sizes[1:].min() > 0.0:
             chart = Chart("Communication step", f"time {clock.label}", "step [s]", [line], "", logarithmic=True)
             yield f'<div class="charts">{figure(chart, "solver-step")}</div>'
