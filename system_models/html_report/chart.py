@@ -24,6 +24,8 @@ _TICKS = 5
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 _ROOM = 0.06  # above and below lines
 _FLAT = 1e-3  # of the largest value: a smaller range is drawn as a flat line
+_SPIKE, _CUT = 4.0, 1.3  # times what lines stay below: where the axis is cut, and at which value
+_MOST_OF_X, _FEW = 0.99, 30  # of its length that a line stays below that, points that can tell
 _TALL = 12.0  # times the range of the lines: bands that are taller run out of the chart
 
 
@@ -57,7 +59,7 @@ def figure(chart: Chart, key: str) -> str:
     """Return the chart as a figure; `key` is a name of its own on the page."""
     lines = [_thinned(line) for line in chart.lines]
     scale = _Scale.of(chart, lines)
-    parts = [*_grid(scale, chart), *_shades(scale, chart)]
+    parts = [*_grid(scale, chart), *_shades(scale, chart), *_cut(scale, lines)]
     for line in lines:
         parts += _band(scale, line)
     for line in lines:
@@ -90,7 +92,7 @@ class _Scale:
         xs = np.concatenate([line.x for line in lines])
         x0, x1 = float(xs.min()), float(xs.max())
         ys = _finite(np.concatenate([line.y for line in lines]), chart.logarithmic)
-        low, high = (float(ys.min()), float(ys.max())) if ys.size else (0.0, 1.0)
+        low, high = (float(ys.min()), _highest(lines, float(ys.max()))) if ys.size else (0.0, 1.0)
         if not chart.logarithmic:
             low, high = _with_bands(lines, low, high)
         if chart.from_zero and low >= 0.0 and not chart.logarithmic:
@@ -102,7 +104,9 @@ class _Scale:
         room = 0.0 if chart.logarithmic else _ROOM * span
         y0 = low if chart.from_zero and low == 0.0 else low - room
         y1 = high * 1.2 if chart.logarithmic else high + room
-        return _Scale(x0, x1 if x1 > x0 else x0 + 1.0, y0, y1 if y1 > y0 else y0 + 1.0, chart.logarithmic, chart.downward)
+        return _Scale(
+            x0, x1 if x1 > x0 else x0 + 1.0, y0, y1 if y1 > y0 else y0 + 1.0, chart.logarithmic, chart.downward
+        )
 
     def across(self, x: Array) -> Array:
         return _LEFT + (x - self.x0) / (self.x1 - self.x0) * (_WIDTH - _LEFT - _RIGHT)
@@ -116,6 +120,23 @@ class _Scale:
             share = (y - self.y0) / (self.y1 - self.y0)
         share = np.clip(share, 0.0, 1.0)
         return np.asarray(_TOP + (share if self.downward else 1.0 - share) * (_HEIGHT - _TOP - _BOTTOM))
+
+
+def _highest(lines: Sequence[Line], largest: float) -> float:
+    """Return the end of the axis: the largest value, or less where for a short stretch of x values are far above."""
+    usual = max(_usual(line) for line in lines)
+    return _CUT * usual if 0.0 < _SPIKE * usual < largest else largest
+
+
+def _usual(line: Line) -> float:
+    """Return the value that a line stays below for most of its length."""
+    known = np.isfinite(line.y)
+    if np.count_nonzero(known) < _FEW:
+        return math.inf
+    y, share = line.y[known], np.gradient(line.x[known])
+    order = np.argsort(y)
+    reached = np.cumsum(share[order])
+    return float(y[order][min(int(np.searchsorted(reached, _MOST_OF_X * reached[-1])), len(y) - 1)])
 
 
 def _finite(values: Array, positive: bool) -> Array:
@@ -177,7 +198,9 @@ def _grid(scale: _Scale, chart: Chart) -> list[str]:
     middle = 0.5 * (_TOP + bottom)
     parts.append(f'<line class="axis" x1="{_LEFT}" x2="{right}" y1="{bottom}" y2="{bottom}"/>')
     parts.append(f'<line class="axis" x1="{_LEFT}" x2="{_LEFT}" y1="{_TOP}" y2="{bottom}"/>')
-    parts.append(f'<text class="middle" x="{0.5 * (_LEFT + right):g}" y="{_HEIGHT - 6:g}">{_index(chart.x_label)}</text>')
+    parts.append(
+        f'<text class="middle" x="{0.5 * (_LEFT + right):g}" y="{_HEIGHT - 6:g}">{_index(chart.x_label)}</text>'
+    )
     parts.append(
         f'<text class="middle" transform="translate(13 {middle:g}) rotate(-90)">{_index(chart.y_label)}</text>'
     )
@@ -187,6 +210,15 @@ def _grid(scale: _Scale, chart: Chart) -> list[str]:
 def _index(words: str) -> str:
     """Return a label with what follows an underscore as an index."""
     return re.sub(r"_(\w+)", r'<tspan dy="4" font-size="9">\1</tspan><tspan dy="-4">&#8203;</tspan>', text(words))
+
+
+def _cut(scale: _Scale, lines: Sequence[Line]) -> list[str]:
+    """Return a word on values above the end of the axis."""
+    largest = max(float(_finite(line.y, False).max(initial=-math.inf)) for line in lines)
+    if largest <= scale.y1:
+        return []
+    words = f"values up to {_number(float(f'{largest:.3g}'))} are cut off"
+    return [f'<text class="end cut" x="{_WIDTH - _RIGHT - 4:g}" y="{_TOP + 12:g}">{words}</text>']
 
 
 def _number(value: float) -> str:

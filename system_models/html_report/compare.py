@@ -1,7 +1,7 @@
 """Several runs in the same charts with their bands, and their end values beside each other."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -73,8 +73,19 @@ def names(runs: Sequence[Run]) -> list[str]:
     return short if len({*short}) == len(short) else [str(run.folder) for run in runs]
 
 
+def compared_at(runs: Sequence[Run]) -> float:
+    """Return the last time that all runs have reached [s]: later values are no comparison."""
+    return min(run.reached for run in runs)
+
+
+def _row(run: Run, time: float) -> int:
+    """Return the last row of a run that is not after a time [s]."""
+    return int(np.searchsorted(run.dataset.variables["time"].values, time * (1.0 + 1e-9), "right")) - 1
+
+
 def end_values(runs: Sequence[Run], contact: str) -> Iterator[EndValue]:
-    """Yield the end values of the main quantities of a contact."""
+    """Yield the values of the main quantities of a contact at the last time that all runs have reached."""
+    rows = [_row(run, compared_at(runs)) for run in runs]
     for panel in (*MAIN, *MORE):
         for name, label in zip(panel.quantities, panel.labels, strict=True):
             full = [run.of(contact, name) for run in runs]
@@ -84,36 +95,54 @@ def end_values(runs: Sequence[Run], contact: str) -> Iterator[EndValue]:
             unit = _common_unit([runs[k] for k in there], [full[k] for k in there], name)
             found, halves = [math.nan] * len(runs), [math.nan] * len(runs)
             for k in there:
-                found[k] = float(unit.of(values(runs[k].dataset, full[k])[-1]))
+                found[k] = float(unit.of(values(runs[k].dataset, full[k])[rows[k]]))
                 half = band(runs[k].dataset, full[k], unit)
-                halves[k] = math.nan if half is None else float(half[-1])
+                halves[k] = math.nan if half is None else float(half[rows[k]])
             who = f", {label}" if len(panel.quantities) > 1 else ""
             yield EndValue(f"{panel.title}{who}", unit, tuple(found), tuple(halves))
 
 
 def _common_unit(runs: Sequence[Run], full: Sequence[str], quantity: str) -> Unit:
     """Return the unit that suits the run with the largest values."""
-    largest = max(range(len(runs)), key=lambda k: float(np.nanmax(np.abs(values(runs[k].dataset, full[k])), initial=0.0)))
+    largest = max(
+        range(len(runs)), key=lambda k: float(np.nanmax(np.abs(values(runs[k].dataset, full[k])), initial=0.0))
+    )
     return unit_of(runs[largest].dataset, [full[largest]], quantity)
 
 
 def lines(runs: Sequence[Run]) -> list[str]:
     """Return the table for the terminal: end values with their errors, and whether their bands overlap."""
-    rows = [["at the end", "unit", *names(runs), "bands"]]
+    rows = [[f"at {_told(runs)}", "unit", *names(runs), "bands"]]
     for contact in _shared(runs):
         before = f"{contact}: " if contact else ""
         for each in end_values(runs, contact):
             cells = [cell.replace("±", "+-") for cell in each.cells]
-            rows.append([f"{before}{each.title.lower()}", each.unit.name.replace("µ", "u").replace("°", "deg"), *cells, each.verdict.replace("–", "none")])
+            rows.append(
+                [
+                    f"{before}{each.title.lower()}",
+                    each.unit.name.replace("µ", "u").replace("°", "deg"),
+                    *cells,
+                    each.verdict.replace("–", "none"),
+                ]
+            )
     return [*aligned(rows, 2), *_warnings(runs)]
 
 
 def _warnings(runs: Sequence[Run]) -> Iterator[str]:
     """Yield sentences on runs that cannot be compared at their ends as they are."""
     named = list(zip(names(runs), runs, strict=True))
-    yield from (f"'{name}' is unfinished, at {run.reached:g} of {run.planned:g} s." for name, run in named if not run.finished)
+    yield from (
+        f"'{name}' is unfinished, at {run.reached:g} of {run.planned:g} s." for name, run in named if not run.finished
+    )
     if len({run.reached for run in runs}) > 1:
-        yield f"The ends are not the same: {', '.join(f'{name} {run.reached:g} s' for name, run in named)}."
+        ends = ", ".join(f"{name} {run.reached:g} s" for name, run in named)
+        yield f"The runs end at different times ({ends}); they are compared at {_told(runs)}."
+
+
+def _told(runs: Sequence[Run]) -> str:
+    """Return the time of the comparison as text."""
+    clock = time_unit(compared_at(runs))
+    return f"{float(clock.of(compared_at(runs))):.4g} {clock.name}"
 
 
 def page(runs: Sequence[Run]) -> str:
@@ -128,26 +157,34 @@ def _ends(runs: Sequence[Run], shared: Sequence[str]) -> str:
     for contact in shared:
         rows = [[each.title, each.unit.name or "–", *each.cells, each.verdict] for each in end_values(runs, contact)]
         parts += [heading(f"Contact {contact}")] if contact else []
-        parts.append(table(["at the end", "unit", *names(runs), "bands"], rows, "numbers"))
+        parts.append(table([f"at {_told(runs)}", "unit", *names(runs), "bands"], rows, "numbers"))
     words = paragraph(
         "“Overlap” means that one value could be that of all runs, within the errors that they state: the "
         "difference says nothing yet. “Apart” means that the difference is larger than the errors. Runs that share "
         "curves or a grid share errors too, so their difference is often surer than their values."
     )
-    return section("ends", "End values", *parts, words)
+    return section("ends", "Values beside each other", *parts, words)
 
 
 def _differences(runs: Sequence[Run]) -> str:
     """Return what differs between the scenes."""
     tables = [dict(_leaves(run.scene_table)) for run in runs]
     keys = list(dict.fromkeys(key for each in tables for key in each))
-    differing = [key for key in keys if len({str(each.get(key)) for each in tables}) > 1]
+    differing = [key for key in keys if len({str(each.get(key)) for each in tables}) > 1 and _tells(key, tables)]
     rows = [[key, *(readable(each[key]) if key in each else "–" for each in tables)] for key in differing]
     titles = table(["run", "what it is"], [[name, run.title] for name, run in zip(names(runs), runs, strict=True)])
     if not any(tables):
         return section("differences", "What differs", titles)
-    same = paragraph("Nothing: the scenes are the same.") if not rows else table(["scene", *names(runs)], rows, "numbers")
+    same = (
+        paragraph("Nothing: the scenes are the same.") if not rows else table(["scene", *names(runs)], rows, "numbers")
+    )
     return section("differences", "What differs", titles, same)
+
+
+def _tells(key: str, tables: Sequence[Mapping[str, object]]) -> bool:
+    """Return False for a number of a law that some run does not have: that they have other laws is said already."""
+    law = key.rpartition(".")[0]
+    return key.endswith("model") or all(any(each.startswith(f"{law}.") for each in table_) for table_ in tables)
 
 
 def _leaves(part: object, path: str = "") -> Iterator[tuple[str, object]]:

@@ -12,9 +12,9 @@ from .shown import time_unit, unit_for
 from .trust import invalid
 
 BANDS = (
-    "The shaded band around a line is its stated error, the half width of a 95 % interval to either side: the wider the "
-    "band, the less the line says. A line without a band is a quantity for which no error is stated. Grey stretches are "
-    "rows whose inputs could not be used. Move the pointer over a chart to read values."
+    "The shaded band around a line is its stated error, the half width of a 95 % interval to either side: the wider "
+    "the band, the less the line says. A line without a band is a quantity for which no error is stated. Grey "
+    "stretches are rows whose inputs could not be used. Move the pointer over a chart to read values."
 )
 _TOGETHER = len(COLOURS)  # lines in a chart
 _MOST = 16  # charts of a machine's parts
@@ -25,7 +25,9 @@ def sections(run: Run) -> str:
     """Return the section of histories."""
     shaded = invalid(run)
     if run.of_contact:
-        main, more = (_figures(charts(run.dataset, panels, "", shaded), f"history-{k}") for k, panels in enumerate((MAIN, MORE)))
+        main, more = (
+            _figures(charts(run.dataset, panels, "", shaded), f"history-{k}") for k, panels in enumerate((MAIN, MORE))
+        )
         duty = _figures(charts(run.dataset, DUTY, "", shaded), "duty")
         held = ", ".join(constants(run.dataset, (*DUTY, *MORE)))
         still = paragraph(f"Constant throughout: {held}.") if held else ""
@@ -74,8 +76,14 @@ def _together(run: Run, part: str, si: str, stem: str, names: list[str]) -> Char
     clock, found = time_unit(run.reached), {name: values(run.dataset, name) for name in names}
     unit = unit_for(si, np.concatenate([*found.values()]), "rise" in names[0])
     lines = [
-        Line(name.rpartition(".")[2].replace("_", " "), clock.of(run.dataset.variables["time"].values), unit.of(y), None, place)
+        Line(
+            name.rpartition(".")[2].replace("_", " "),
+            clock.of(run.dataset.variables["time"].values),
+            unit.of(y),
+            None,
+            place,
+        )
         for place, (name, y) in enumerate(found.items())
     ]
     title = lines[0].label if len(lines) == 1 else stem
-    return Chart(f"{part}: {title}", f"time {clock.label}", f"{stem} {unit.label}", lines, from_zero=si != "K")
+    return Chart(f"{part}: {title}", f"time {clock.label}", f"{title} {unit.label}", lines, from_zero=si != "K")

@@ -69,5 +69,13 @@ def _resolved(folder: Path) -> Iterator[str]:
             value, solved = (factor * float(row[f"{name}.{level}"]) for level in ("regression", "deterministic"))
             cells += [stated(value, value * float(row[f"{name}.{error}"])), stated(solved)]
         rows.append([*cells, verdict])
-    heads = ["contact", "time [s]", "µ as run [–]", "µ solved [–]", "h_c as run [nm]", "h_c solved [nm]", "within error"]
+    heads = [
+        "contact",
+        "time [s]",
+        "µ as run [–]",
+        "µ solved [–]",
+        "h_c as run [nm]",
+        "h_c solved [nm]",
+        "within error",
+    ]
     yield table(heads, rows, "numbers")

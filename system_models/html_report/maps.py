@@ -83,7 +83,9 @@ def _fields(dataset: xr.Dataset) -> Iterator[_Field]:
     for key, title, colours, caption in _MAPS:
         values = _values(dataset, key)
         if values is not None and np.any(values[np.isfinite(values)]):
-            along = dataset.variables["x" if key in ("pressure", "fluid_pressure", "solid_pressure", "gap") else ALONG].values
+            along = dataset.variables[
+                "x" if key in ("pressure", "fluid_pressure", "solid_pressure", "gap") else ALONG
+            ].values
             yield _Field(key, title, colours, caption, values, along)
 
 
@@ -135,7 +137,7 @@ def _viewer(dataset: xr.Dataset, fewer: bool) -> str:
         '<button type="button" class="play" aria-label="play through the times">▶ play</button></div>'
         '<p class="what-it-is quiet"></p>'
         '<div class="pair"><figure><canvas class="flat" width="1040" height="880"></canvas>'
-        '<figcaption>From above. Move the pointer over the map to read values.</figcaption></figure>'
+        "<figcaption>From above. Move the pointer over the map to read values.</figcaption></figure>"
         '<figure><canvas class="solid" width="1040" height="880" tabindex="0"></canvas>'
         "<figcaption>In 3-D, heights stretched. Drag, or use the arrow keys, to turn it.</figcaption></figure></div>"
         f'<script type="application/json" id="maps-data">{safe_json(about)}</script></div>',
@@ -144,7 +146,9 @@ def _viewer(dataset: xr.Dataset, fewer: bool) -> str:
 
 def _zero(dataset: xr.Dataset) -> str:
     """Return a sentence on maps that are zero throughout."""
-    zero = [title for key, title, *_ in _MAPS if key in dataset and not np.any(np.nan_to_num(dataset.variables[key].values))]
+    zero = [
+        title for key, title, *_ in _MAPS if key in dataset and not np.any(np.nan_to_num(dataset.variables[key].values))
+    ]
     return f" Zero everywhere and therefore not listed: {', '.join(zero).lower()}." if zero else ""
 
 
@@ -216,14 +220,16 @@ def _stops(name: str) -> list[list[int]]:
 
 def _profiles(dataset: xr.Dataset) -> str:
     """Return the section of profiles across the track, mean along it, and of cross-sections of the surfaces."""
-    charts = [chart for kind, title, down in _KINDS for body in (1, 2) for chart in _across(dataset, kind, title, body, down)]
+    charts = [
+        chart for kind, title, down in _KINDS for body in (1, 2) for chart in _across(dataset, kind, title, body, down)
+    ]
     charts += [_cross_section(dataset, body) for body in (1, 2)]
     return section(
         "profiles",
         "Profiles across the track",
         paragraph(
-            "Means along the track at some times of the run; the track is the grey stretch. Cross-sections are a single "
-            "line across the middle of the map, so they show single asperities."
+            "Means along the track at some times of the run; the track is the grey stretch. Cross-sections are a "
+            "single line across the middle of the map, so they show single asperities."
         ),
         f'<div class="charts">{"".join(figure(chart, f"profile-{k}") for k, chart in enumerate(charts))}</div>',
     )

@@ -4,9 +4,13 @@ import base64
 from collections.abc import Iterable, Sequence
 from html import escape
 from pathlib import Path
+from textwrap import wrap
 
 from fmu_src.package.document.markup import equation as equation
 from fmu_src.package.document.markup import source as source
+
+_GAP = "  "  # between the columns of a printed table
+_COLUMNS = 120
 
 
 def text(words: object) -> str:
@@ -24,7 +28,8 @@ def table(head: Sequence[str], rows: Iterable[Sequence[object]], kind: str = "",
     top = "".join(f'<th scope="col">{text(cell)}</th>' for cell in head)
     body = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in rows)
     said = f"<caption>{text(caption)}</caption>" if caption else ""
-    return f'<div class="wide"><table class="{kind}">{said}<thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
+    rows_ = f"<thead><tr>{top}</tr></thead><tbody>{body}</tbody>"
+    return f'<div class="wide"><table class="{kind}">{said}{rows_}</table></div>'
 
 
 class Raw(str):
@@ -48,8 +53,13 @@ def heading(words: str) -> str:
 
 
 def printed(lines: Iterable[str]) -> str:
-    """Return lines of a printed report, as they are."""
-    return f'<pre tabindex="0">{text(chr(10).join(lines)).rstrip()}</pre>'
+    """Return lines of a printed report: tables as they are, long sentences in several lines."""
+    wrapped = [part for line in lines for part in _wrapped(line)]
+    return f'<pre tabindex="0">{text(chr(10).join(wrapped)).rstrip()}</pre>'
+
+
+def _wrapped(line: str) -> list[str]:
+    return [line] if _GAP in line.strip() or not line else wrap(line, _COLUMNS)
 
 
 def folded(title: str, *parts: str, unfolded: bool = False) -> str:

@@ -109,7 +109,9 @@ def _finished(folder: Path, result: Path) -> Run:
     if "time" not in dataset.dims or not dataset.sizes["time"]:
         raise ContactError(f"'{result}' has no rows along time, so it is not of `tribofmu run` or `tribofmu cosim`.")
     dataset = dataset.assign_attrs({name: _plain(value) for name, value in dataset.attrs.items()})
-    files = {name.name: _sha256(name) for name in (result, folder / "resolved.nc", folder / "corrected.nc") if name.exists()}
+    files = {
+        name.name: _sha256(name) for name in (result, folder / "resolved.nc", folder / "corrected.nc") if name.exists()
+    }
     run = Run(folder, dataset, float(dataset.variables["time"].values[-1]), True, files=files)
     if "scene_json" in dataset.attrs:
         found = json.loads(dataset.attrs.get(ERRORS, "{}"))

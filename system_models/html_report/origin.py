@@ -48,10 +48,11 @@ def _versions(run: Run) -> Iterator[str]:
 def _again(run: Run) -> Iterator[str]:
     yield heading("The numbers themselves")
     yield paragraph(
-        "result.nc has every row and every map in SI units, with a text, a unit and the half width of the error for each "
-        "variable; result.csv has the rows. In Python: xarray.open_dataset('result.nc', engine='h5netcdf')."
+        "result.nc has every row and every map in SI units, with a text, a unit and the half width of the error for "
+        "each variable; result.csv has the rows. In Python: xarray.open_dataset('result.nc', engine='h5netcdf')."
     )
     if run.of_contact:
         yield paragraph(
-            "The whole scene is in the attribute scene_json; contact_core.Scene.from_dict(json.loads(...)) makes it again."
+            "The whole scene is in the attribute scene_json; contact_core.Scene.from_dict(json.loads(...)) "
+            "makes it again."
         )

@@ -25,6 +25,7 @@ class Panel(NamedTuple):
     symbol: str  # on the axis
     caption: str
     downward: bool = False
+    share: bool = False  # from 0 to 1: an error relative to it says little
 
 
 def _bodies(title: str, name: str, symbol: str, caption: str, downward: bool = False) -> Panel:
@@ -44,10 +45,10 @@ MAIN = (
     ),
     Panel(
         "Load carried by solids", ("contact_load_ratio",), ("W_c",), "W_c",
-        "Share of the load that touching asperities carry: 0 is a full film, 1 is dry.",
+        "Share of the load that touching asperities carry: 0 is a full film, 1 is dry.", share=True,
     ),
     _bodies("Tribofilm", "tribofilm", "thickness", "Mean thickness over the wear track of each body."),
-    _bodies("Wear depth", "wear_depth", "depth", "Mean depth over the wear track; the axis runs down, into the body.", True),
+    _bodies("Wear depth", "wear_depth", "depth", "Mean depth over the wear track; the axis runs down.", True),
 )  # fmt: skip
 MORE = (
     Panel("Real contact area", ("contact_area_ratio",), ("A_c",), "A_c", "Touching area over the Hertz area."),
@@ -82,7 +83,9 @@ def charts(
     for panel in panels:
         names = [f"{contact}.{name}" if contact else name for name in panel.quantities]
         there = [name for name in names if name in dataset]
-        if any(np.nanmax(np.abs(values(dataset, name)), initial=0.0) > 0.0 for name in there) and _changes(dataset, there):
+        if any(np.nanmax(np.abs(values(dataset, name)), initial=0.0) > 0.0 for name in there) and _changes(
+            dataset, there
+        ):
             yield chart(dataset, panel, there, shaded)
 
 
@@ -100,7 +103,9 @@ def constants(dataset: xr.Dataset, panels: tuple[Panel, ...]) -> Iterator[str]:
 def _changes(dataset: xr.Dataset, names: list[str]) -> bool:
     """Return True if a variable changes, or has an error band, along a result of some rows."""
     return any(
-        dataset.sizes["time"] < 2 or np.ptp(dataset.variables[name].values) > 0.0 or f"{name}{ERROR}" in dataset.variables
+        dataset.sizes["time"] < 2
+        or np.ptp(dataset.variables[name].values) > 0.0
+        or f"{name}{ERROR}" in dataset.variables
         for name in names
     )
 
@@ -110,7 +115,13 @@ def chart(dataset: xr.Dataset, panel: Panel, names: list[str], shaded: tuple[tup
     clock = time_unit(float(dataset.variables["time"].values[-1]))
     unit = unit_of(dataset, names, panel.quantities[0])
     lines = [
-        Line(label, clock.of(dataset.variables["time"].values), unit.of(values(dataset, name)), band(dataset, name, unit), place)
+        Line(
+            label,
+            clock.of(dataset.variables["time"].values),
+            unit.of(values(dataset, name)),
+            band(dataset, name, unit),
+            place,
+        )
         for place, (name, label) in enumerate(zip(names, panel.labels, strict=False))
     ]
     at = tuple((float(clock.of(begin)), float(clock.of(end))) for begin, end in shaded)
@@ -142,4 +153,6 @@ def values(dataset: xr.Dataset, name: str) -> Array:
 def band(dataset: xr.Dataset, name: str, unit: Unit) -> Array | None:
     """Return the half width of a variable's error band in a unit, if the result has it."""
     stated = f"{name}{ERROR}"
-    return unit.factor * np.asarray(dataset.variables[stated].values, dtype=float) if stated in dataset.variables else None
+    return (
+        unit.factor * np.asarray(dataset.variables[stated].values, dtype=float) if stated in dataset.variables else None
+    )

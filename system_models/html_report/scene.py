@@ -49,7 +49,9 @@ def modelled(scene: Scene | None) -> str:
         return ""
     slots = [Slot("film", scene.film), *_slots(scene)]
     on, off = [each for each in slots if each.active], [each for each in slots if not each.active]
-    rows = [[each.path, each.law.name, each.words, Raw(source(each.law.source).replace("Source: ", "", 1))] for each in on]
+    rows = [
+        [each.path, each.law.name, each.words, Raw(source(each.law.source).replace("Source: ", "", 1))] for each in on
+    ]
     without = [f"{each.path.replace('_', ' ')}: {each.words}" for each in off]
     warnings = scene.warnings()
     return section(
@@ -128,7 +130,9 @@ def _of_machine(assembly: Assembly) -> str:
     scenes: dict[str, tuple[Scene, list[str]]] = {}
     for name, contact in assembly.contacts.items():
         scenes.setdefault(repr(contact.scene.to_dict()), (contact.scene, []))[1].append(name)
-    rows = [[name, type(part).__name__, (type(part).__doc__ or "").splitlines()[0]] for name, part in assembly.parts.items()]
+    rows = [
+        [name, type(part).__name__, (type(part).__doc__ or "").splitlines()[0]] for name, part in assembly.parts.items()
+    ]
     tables = []
     for scene, names in scenes.values():
         table_ = scene.to_dict()

@@ -52,7 +52,7 @@ def unit_for(si: str, values: ArrayLike, difference: bool = False) -> Unit:
         return time_unit(largest)
     if si == "Pa^-1":
         return Unit("GPa⁻¹", 1e9)
-    if si in _PREFIXED and largest > 0.0 or si == "m/s" and 0.0 < largest < _SLOW:
+    if (si in _PREFIXED and largest > 0.0) or (si == "m/s" and 0.0 < largest < _SLOW):
         factor, prefix = _prefix(largest)
         return Unit(f"{prefix}{si}", 1.0 / factor)
     return Unit(printed(si))

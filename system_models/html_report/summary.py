@@ -8,7 +8,7 @@ from .markup import Raw, paragraph, section, table, text
 from .opened import Run
 from .panels import MAIN, Panel, band, unit_of, values
 from .shown import Unit, stated, time_unit
-from .trust import CAUSES, invalid, raised
+from .trust import CAUSES, invalid, marked, raised
 
 _LARGE = 0.2  # relative half width from which an end value is called uncertain
 _MOST = 12  # contacts listed
@@ -72,7 +72,9 @@ def _cards(run: Run) -> str:
         ]
         if lines:
             cards.append(f"<div><h3>{text(panel.title)}</h3>{''.join(lines)}</div>")
-    note = paragraph("At the end; ± is the half width of a 95 % interval by all causes that the model knows of.", "quiet")
+    note = paragraph(
+        "At the end; ± is the half width of a 95 % interval by all causes that the model knows of.", "quiet"
+    )
     return f'<div class="cards">{"".join(cards)}</div>{note}'
 
 
@@ -109,26 +111,34 @@ def _of_notes(run: Run) -> Iterator[tuple[str, str]]:
 def _of_rows(run: Run) -> Iterator[tuple[str, str]]:
     spoiled = invalid(run)
     if spoiled:
-        yield "bad", f"Some inputs could not be used, the first at {spoiled[0][1]:g} s: outputs stand as they were before."
+        yield (
+            "bad",
+            f"Some inputs could not be used, the first at {spoiled[0][1]:g} s: outputs stand as they were before.",
+        )
     else:
         yield "good", f"All {run.dataset.sizes['time']} rows could be computed."
 
 
 def _of_flags(run: Run) -> Iterator[tuple[str, str]]:
+    rows = run.dataset.sizes["time"]
     for flag, contacts in raised(run).items():
-        who = "" if run.of_contact else f" ({len(contacts)} of {len(run.contacts)} contacts)"
-        yield "warn", f"{flag.text[0].upper()}{flag.text[1:]}{who}."
+        count = int(marked(run, flag, contacts).sum())
+        where = [] if run.of_contact else [f"{len(contacts)} of {len(run.contacts)} contacts"]
+        where += ["throughout" if count == rows else f"in {count} of {rows} rows"]
+        yield "warn", f"{flag.text[0].upper()}{flag.text[1:]} ({', '.join(where)})."
 
 
 def _of_errors(run: Run) -> Iterator[tuple[str, str]]:
     """Yield a sentence on each main output that is uncertain, with its main cause where it is known."""
-    for panel in MAIN if run.of_contact else ():
-        worst = 0.0
-        for name, (_, value, half, _) in zip(panel.quantities, _end(run, panel, ""), strict=False):
-            relative = half / abs(value) if half is not None and value and np.isfinite(value) else 0.0
-            if relative > max(worst, _LARGE):
-                worst, main = relative, _main_cause(run, name)
-        if worst:
+    for panel in MAIN:
+        worst, main = 0.0, ""
+        for contact in run.contacts:
+            for name, (_, value, half, _) in zip(panel.quantities, _end(run, panel, contact), strict=False):
+                relative = half / abs(value) if half is not None and value and np.isfinite(value) else 0.0
+                if relative > max(worst, _LARGE):
+                    where = "" if run.of_contact else f" in contact {contact}"
+                    worst, main = relative, f"{where}{_main_cause(run, name)}"
+        if worst and not panel.share:
             yield "warn", f"{panel.title} is uncertain by {worst:.0%}{main}: do not read more into its digits."
 
 

@@ -47,7 +47,11 @@ _REMEDY = {  # of a flag; the quantities that show by how much
     RangeFlag.SCUFFING: ("Lower load, sliding or oil temperature.", ("scuffing_ratio",)),
     RangeFlag.PITTED: ("Trust the onset more than the growth.", ("micropitted_area_1", "micropitted_area_2")),
 }  # fmt: skip
-_WORDS = {"h_c": "central film thickness", "contact_load_ratio": "load carried by solids", "contact_area_ratio": "contact area"}
+_WORDS = {
+    "h_c": "central film thickness",
+    "contact_load_ratio": "load carried by solids",
+    "contact_area_ratio": "contact area",
+}
 _WORST = 8  # errors of the coupling listed
 
 
@@ -56,7 +60,9 @@ def raised(run: Run) -> dict[RangeFlag, list[str]]:
     found: dict[RangeFlag, list[str]] = {}
     for contact in run.contacts:
         name = run.of(contact, "range_flags")
-        together = int(np.bitwise_or.reduce(run.dataset.variables[name].values.astype(int))) if name in run.dataset else 0
+        together = (
+            int(np.bitwise_or.reduce(run.dataset.variables[name].values.astype(int))) if name in run.dataset else 0
+        )
         for flag in RangeFlag:
             if together & flag:
                 found.setdefault(flag, []).append(contact)
@@ -165,7 +171,11 @@ def _of_contacts(run: Run) -> Iterator[str]:
     kinds = {"error_friction": "friction", "error_film": "film thickness", "error_wear": "wear"}
     rows = []
     for contact in run.contacts:
-        last = [float(run.dataset.variables[run.of(contact, key)].values[-1]) for key in kinds if run.of(contact, key) in run.dataset]
+        last = [
+            float(run.dataset.variables[run.of(contact, key)].values[-1])
+            for key in kinds
+            if run.of(contact, key) in run.dataset
+        ]
         rows.append([contact, *(f"{error:.0%}" for error in last)])
     yield table(["contact", *kinds.values()], rows, "numbers", "Half widths relative to the value")
     yield paragraph("Contacts at the regression level state one cause: its fitted curves.", "quiet")
@@ -182,14 +192,15 @@ def _of_coupling(run: Run) -> Iterator[str]:
     yield heading("By the coupling of the parts")
     if not found:
         yield paragraph(
-            "Not checked: a machine's run without --unchecked simulates once more with double steps, and says so.", "quiet"
+            "Not checked: a machine's run without --unchecked simulates once more with double steps, and says so.",
+            "quiet",
         )
         return
     found.sort(reverse=True)
     middle = float(np.median([share for share, *_ in found]))
     yield paragraph(
-        f"From a simulation with double steps, relative to the largest value of each output: {middle:.2g} in the middle "
-        f"of {len(found)} outputs. The largest:"
+        f"From a simulation with double steps, relative to the largest value of each output: {middle:.2g} in the "
+        f"middle of {len(found)} outputs. The largest:"
     )
     rows = [[name, f"{share:.2%}", f"{error:.3g}", unit] for share, name, error, unit in found[:_WORST]]
     yield table(["output", "relative", "error", "unit"], rows, "numbers")
@@ -201,29 +212,40 @@ def _flags(run: Run) -> str:
     parts = []
     if spoiled:
         times = ", ".join(f"{clock.of(a):.3g} to {clock.of(b):.3g} {clock.name}" for a, b in spoiled[:5])
-        parts.append(paragraph(f"Inputs could not be used from {times}: outputs stand there as they were before.", "bad"))
+        parts.append(
+            paragraph(f"Inputs could not be used from {times}: outputs stand there as they were before.", "bad")
+        )
     if not flags:
-        return section("flags", "Flags", *parts, paragraph("No flag was raised: nothing lies outside its range.", "good"))
+        return section(
+            "flags", "Flags", *parts, paragraph("No flag was raised: nothing lies outside its range.", "good")
+        )
     rows = [_flag_row(run, flag, contacts) for flag, contacts in flags.items()]
     note = paragraph("A flag says that an answer is less sure than usual. It changes no number.")
-    heads = ["what", "when", "by how much", "what to do"] if run.of_contact else ["what", "contacts", "when", "by how much", "what to do"]
+    heads = (
+        ["what", "when", "by how much", "what to do"]
+        if run.of_contact
+        else ["what", "contacts", "when", "by how much", "what to do"]
+    )
     return section("flags", "Flags", *parts, note, table(heads, rows, "flags"), _strip(run, flags))
 
 
-def _marked(run: Run, flag: RangeFlag, contacts: list[str]) -> np.ndarray:
-    columns = [(run.dataset.variables[run.of(each, "range_flags")].values.astype(int) & int(flag)) > 0 for each in contacts]
+def marked(run: Run, flag: RangeFlag, contacts: list[str]) -> np.ndarray:
+    """Return for each row whether a flag is up in one of the contacts."""
+    columns = [
+        (run.dataset.variables[run.of(each, "range_flags")].values.astype(int) & int(flag)) > 0 for each in contacts
+    ]
     return np.asarray(np.logical_or.reduce(columns))
 
 
 def _flag_row(run: Run, flag: RangeFlag, contacts: list[str]) -> list[object]:
-    times, marked = run.dataset.variables["time"].values, _marked(run, flag, contacts)
-    clock, count = time_unit(run.reached), int(marked.sum())
-    found = list(spans(times, marked))
+    times, up = run.dataset.variables["time"].values, marked(run, flag, contacts)
+    clock, count = time_unit(run.reached), int(up.sum())
+    found = list(spans(times, up))
     begin, end = found[0][0], found[-1][1]
-    when = "throughout" if marked.all() else f"{clock.of(begin):.3g} to {clock.of(end):.3g} {clock.name}"
+    when = "throughout" if up.all() else f"{clock.of(begin):.3g} to {clock.of(end):.3g} {clock.name}"
     when += f", {count} of {len(times)} rows" + (f" in {len(found)} stretches" if len(found) > 1 else "")
     remedy, shown = _REMEDY[flag]
-    much = [each for key in shown for each in _how_much(run, contacts, key, marked)]
+    much = [each for key in shown for each in _how_much(run, contacts, key, up)]
     who = [] if run.of_contact else [", ".join(contacts)]
     return [f"{flag.text[0].upper()}{flag.text[1:]}.", *who, when, "; ".join(much) or "–", remedy]
 
@@ -248,11 +270,15 @@ def _strip(run: Run, flags: dict[RangeFlag, list[str]]) -> str:
     parts = []
     for k, (flag, contacts) in enumerate(flags.items()):
         top = k * row + 4.0
-        parts.append(f'<text class="end" x="150" y="{top + 12:g}">{text((flag.name or "").replace("_", " ").lower())}</text>')
+        parts.append(
+            f'<text class="end" x="150" y="{top + 12:g}">{text((flag.name or "").replace("_", " ").lower())}</text>'
+        )
         parts.append(f'<line class="grid" x1="158" x2="{width - 10}" y1="{top + 8:g}" y2="{top + 8:g}"/>')
-        for begin, until in spans(run.dataset.variables["time"].values, _marked(run, flag, contacts)):
+        for begin, until in spans(run.dataset.variables["time"].values, marked(run, flag, contacts)):
             left, right = (158.0 + (width - 168.0) * each / end for each in (begin, until))
-            parts.append(f'<rect class="up" x="{left:.1f}" y="{top:g}" width="{max(right - left, 2.0):.1f}" height="16"/>')
+            parts.append(
+                f'<rect class="up" x="{left:.1f}" y="{top:g}" width="{max(right - left, 2.0):.1f}" height="16"/>'
+            )
     bottom = len(flags) * row + 18.0
     parts.append(f'<text class="middle" x="158" y="{bottom:g}">0</text>')
     parts.append(f'<text class="end" x="{width - 10:g}" y="{bottom:g}">{clock.of(end):.4g} {clock.name}</text>')
@@ -265,17 +291,25 @@ def _strip(run: Run, flags: dict[RangeFlag, list[str]]) -> str:
 
 def _solver(run: Run) -> str:
     dataset = run.dataset
-    if run.of_contact:
-        parts = [*_of_blocks(dataset), *_iterations(dataset)]
-    else:
-        parts = [*_of_master(dataset, run.finished)]
-    return section("solver", "Solver", *(parts or [paragraph("This level has formulas only: nothing was iterated.", "quiet")]))
+    found = (_of_blocks(dataset), _iterations(dataset)) if run.of_contact else (_of_master(dataset, run.finished),)
+    parts = [part for each in found for part in each]
+    return section(
+        "solver", "Solver", *(parts or [paragraph("This level has formulas only: nothing was iterated.", "quiet")])
+    )
 
 
 def _of_blocks(dataset: xr.Dataset) -> Iterator[str]:
     """Yield what drove the blocks of the evolution, and how the instants of the maps were solved."""
-    kinds = {"dry": "dry contact at the measured share of load", "mixed": "mixed lubrication", "fallback": "dry contact in place of a mixed solution that failed"}
-    counts = {text_: int(dataset.variables[f"blocks_{kind}"].values[-1]) for kind, text_ in kinds.items() if f"blocks_{kind}" in dataset}
+    kinds = {
+        "dry": "dry contact at the measured share of load",
+        "mixed": "mixed lubrication",
+        "fallback": "dry contact in place of a mixed solution that failed",
+    }
+    counts = {
+        text_: int(dataset.variables[f"blocks_{kind}"].values[-1])
+        for kind, text_ in kinds.items()
+        if f"blocks_{kind}" in dataset
+    }
     total = sum(counts.values())
     if total:
         rows = [[words, count, f"{count / total:.0%}"] for words, count in counts.items()]
@@ -286,7 +320,10 @@ def _of_blocks(dataset: xr.Dataset) -> Iterator[str]:
         rows = [
             [f"{float(clock.of(time)):.4g} {clock.name}", names[int(route)], "yes" if converged else "NO"]
             for time, route, converged in zip(
-                dataset.variables["field_time"].values, dataset.variables["instant_route"].values, dataset.variables["instant_converged"].values, strict=True
+                dataset.variables["field_time"].values,
+                dataset.variables["instant_route"].values,
+                dataset.variables["instant_converged"].values,
+                strict=True,
             )
         ]
         yield table(["instant of the maps", "solved as", "converged"], rows, "numbers")
@@ -303,8 +340,14 @@ def _iterations(dataset: xr.Dataset) -> Iterator[str]:
     for name, title, symbol, caption in shown:
         if name in dataset and np.any(dataset.variables[name].values):
             line = Line(symbol, clock.of(dataset.variables["time"].values), values(dataset, name))
-            figures.append(figure(Chart(title, f"time {clock.label}", f"{symbol} [–]", [line], caption), f"solver-{name}"))
-    if "unconverged" in dataset and np.any(dataset.variables["iterations"].values) and not np.any(dataset.variables["unconverged"].values):
+            figures.append(
+                figure(Chart(title, f"time {clock.label}", f"{symbol} [–]", [line], caption), f"solver-{name}")
+            )
+    if (
+        "unconverged" in dataset
+        and np.any(dataset.variables["iterations"].values)
+        and not np.any(dataset.variables["unconverged"].values)
+    ):
         yield paragraph("Every film solution converged.", "good")
     if figures:
         yield f'<div class="charts">{"".join(figures)}</div>'
