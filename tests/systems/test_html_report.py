@@ -1,4 +1,4 @@
-"""Pages of results: they need nothing else, have the numbers of the result, and a browser shows them without an error."""
+"""Pages of results: they need nothing else, have the numbers of the result, and a browser shows them."""
 
 import json
 import math
@@ -25,9 +25,10 @@ from system_models.html_report.shown import stated, unit_for
 from system_models.run.causes import ATTRIBUTE
 from system_models.store.checkpoint import Checkpoint
 
-COARSE = (
-    "film.points=33 surface_1.correlation_length=16um surface_2.correlation_length=16um operation.interval=30s".split()
-)
+COARSE = [
+    *("film.points=33", "operation.interval=30s"),
+    *(f"surface_{body}.correlation_length=16um" for body in (1, 2)),
+]
 RUN = ["run", "mtm_zddp", "--set", *COARSE, "--hours", "0.025", "--fields", "3"]
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 LARGEST = 3e6  # bytes
@@ -253,7 +254,7 @@ def test_a_level_without_maps_says_so(tmp_path: Path) -> None:
 
 def test_a_machine_is_shown_with_its_report_its_parts_and_its_contact(tmp_path: Path) -> None:
     duty = tmp_path / "short.csv"
-    duty.write_text("time [s],speed [m/s],slide_roll_ratio\n0,0.1,0.05\n2,0.1,0.05\n")
+    duty.write_text("time [s],entrainment_speed [m/s],slide_roll_ratio [1]\n0,0.1,0.05\n2,0.1,0.05\n")
     settings = ["--set", "contact.film.model=regression"]
     out = tmp_path / "rig"
     assert main(["run", "mtm_rig", "--duty", str(duty), *settings, "--unchecked", "--out", str(out)]) == 0
