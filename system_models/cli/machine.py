@@ -69,7 +69,8 @@ def _run_in(folder: Path, assembly: "Assembly", machine: "Machine", arguments: a
         system = assembly.system(Path(files), flavour, here=True)
 
         def report(dataset: "xr.Dataset", folder: Path) -> int:
-            code = _report(dataset.assign_attrs(described(machine)), folder, assembly, machine.kind)
+            dataset = dataset.assign_attrs(described(machine))
+            code = _report(dataset, folder, assembly, machine.kind)
             return code if unchecked else _check(dataset, folder, assembly, system, code)
 
         return carry_out(system, settings, assembly.name, folder, arguments.resume, report, **attributes)

@@ -24,6 +24,7 @@ _TICKS = 5
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 _ROOM = 0.06  # above and below lines
 _FLAT = 1e-3  # of the largest value: a smaller range is drawn as a flat line
+_SMALL = 9e-4  # numbers below have an exponent, which is shorter
 _SPIKE, _CUT = 4.0, 1.3  # times what lines stay below: where the axis is cut, and at which value
 _MOST_OF_X, _FEW = 0.99, 30  # of its length that a line stays below that, points that can tell
 _TALL = 12.0  # times the range of the lines: bands that are taller run out of the chart
@@ -222,7 +223,8 @@ def _cut(scale: _Scale, lines: Sequence[Line]) -> list[str]:
 
 
 def _number(value: float) -> str:
-    return f"{0.0 if abs(value) < 1e-12 else value:.5g}".replace("-", "−")
+    small = 0.0 < abs(value) < _SMALL
+    return (f"{value:.2g}" if small else f"{value:.5g}").replace("e-0", "e-").replace("-", "−")
 
 
 def _shades(scale: _Scale, chart: Chart) -> list[str]:

@@ -64,7 +64,7 @@ def sections(run: Run) -> str:
 def _none(run: Run) -> str:
     if not run.of_contact:
         return ""
-    solved = "blocks_mixed" in run.dataset and bool(np.any(run.dataset.variables["iterations"].values))
+    solved = "iterations" in run.dataset and bool(np.any(run.dataset.variables["iterations"].values))
     words = (
         "This run kept no maps. Run it again with --fields 6 to see pressure, gap, tribofilm and wear at six times."
         if solved

@@ -97,7 +97,7 @@ def constants(dataset: xr.Dataset, panels: tuple[Panel, ...]) -> Iterator[str]:
                 continue
             unit = unit_of(dataset, [name], name)
             who = f" of {label}" if len(panel.quantities) > 1 else ""
-            yield f"{panel.title.lower()}{who} {float(unit.of(values(dataset, name)[-1])):.4g} {unit.name}".rstrip()
+            yield f"{panel.title.lower()}{who} = {float(unit.of(values(dataset, name)[-1])):.4g} {unit.name}".rstrip()
 
 
 def _changes(dataset: xr.Dataset, names: list[str]) -> bool:

@@ -8,7 +8,7 @@ from .markup import Raw, paragraph, section, table, text
 from .opened import Run
 from .panels import MAIN, Panel, band, unit_of, values
 from .shown import Unit, stated, time_unit
-from .trust import CAUSES, invalid, marked, raised
+from .trust import CAUSES, invalid, marked, raised, why_invalid
 
 _LARGE = 0.2  # relative half width from which an end value is called uncertain
 _MOST = 12  # contacts listed
@@ -111,10 +111,7 @@ def _of_notes(run: Run) -> Iterator[tuple[str, str]]:
 def _of_rows(run: Run) -> Iterator[tuple[str, str]]:
     spoiled = invalid(run)
     if spoiled:
-        yield (
-            "bad",
-            f"Some inputs could not be used, the first at {spoiled[0][1]:g} s: outputs stand as they were before.",
-        )
+        yield "bad", f"Some rows are not valid, the first at {spoiled[0][1]:g} s: {why_invalid(run)}."
     else:
         yield "good", f"All {run.dataset.sizes['time']} rows could be computed."
 

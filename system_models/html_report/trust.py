@@ -78,6 +78,15 @@ def invalid(run: Run) -> tuple[tuple[float, float], ...]:
     return tuple(spans(run.dataset.variables["time"].values, bad))
 
 
+def why_invalid(run: Run) -> str:
+    """Return what it means that rows are not valid: the run of a machine with checks marks more of them."""
+    resolved = any("comment" in run.dataset.variables[f"{contact}.valid"].attrs for contact in run.contacts if contact)
+    unused = "inputs could not be used, and outputs stand there as they were before"
+    if not resolved:
+        return unused
+    return f"a state solved again lies outside its stated error or could not be judged, or {unused}"
+
+
 def spans(times: "np.ndarray[tuple[int], np.dtype[np.float64]]", marked: np.ndarray) -> Iterator[tuple[float, float]]:
     """Yield the stretches of time [s] of marked rows; a row stands for the step that ends there."""
     for mark, group in groupby(range(len(times)), key=lambda k: bool(marked[k])):
@@ -212,9 +221,7 @@ def _flags(run: Run) -> str:
     parts = []
     if spoiled:
         times = ", ".join(f"{clock.of(a):.3g} to {clock.of(b):.3g} {clock.name}" for a, b in spoiled[:5])
-        parts.append(
-            paragraph(f"Inputs could not be used from {times}: outputs stand there as they were before.", "bad")
-        )
+        parts.append(paragraph(f"Rows are not valid from {times}: {why_invalid(run)}.", "bad"))
     if not flags:
         return section(
             "flags", "Flags", *parts, paragraph("No flag was raised: nothing lies outside its range.", "good")
@@ -343,11 +350,8 @@ def _iterations(dataset: xr.Dataset) -> Iterator[str]:
             figures.append(
                 figure(Chart(title, f"time {clock.label}", f"{symbol} [–]", [line], caption), f"solver-{name}")
             )
-    if (
-        "unconverged" in dataset
-        and np.any(dataset.variables["iterations"].values)
-        and not np.any(dataset.variables["unconverged"].values)
-    ):
+    counted = [name in dataset and bool(np.any(dataset.variables[name].values)) for name, *_ in shown]
+    if counted == [True, False]:
         yield paragraph("Every film solution converged.", "good")
     if figures:
         yield f'<div class="charts">{"".join(figures)}</div>'

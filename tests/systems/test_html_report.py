@@ -207,7 +207,7 @@ def test_rows_that_could_not_be_computed_are_told(opened: Run) -> None:
     changed = opened.dataset.copy(deep=True)
     changed["valid"].values[2] = False
     text = Parsed(page(replace(opened, dataset=changed))).text
-    assert "Inputs could not be used from 30 to 60 s" in text
+    assert "Rows are not valid from 30 to 60 s: inputs could not be used" in text
 
 
 def test_a_title_cannot_become_markup(opened: Run) -> None:
