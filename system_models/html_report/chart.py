@@ -150,7 +150,8 @@ def _with_bands(lines: Sequence[Line], low: float, high: float) -> tuple[float, 
     most = _TALL * max(high - low, 0.1 * max(abs(low), abs(high)))
     for line in lines:
         if line.half is not None:
-            bottom, top = _finite(line.y - line.half, False), _finite(line.y + line.half, False)
+            shown = line.y <= high
+            bottom, top = (_finite((line.y + sign * line.half)[shown], False) for sign in (-1.0, 1.0))
             low = min(low, max(float(bottom.min(initial=low)), low - most, 0.0 if low >= 0.0 else -math.inf))
             high = max(high, min(float(top.max(initial=high)), high + most))
     return low, high
