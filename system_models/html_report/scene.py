@@ -5,6 +5,7 @@ from dataclasses import fields, is_dataclass
 from typing import Any, NamedTuple
 
 from contact_core.errors import SceneError
+from contact_core.laws import SLOTS
 from contact_core.scene import Scene
 from contact_core.scene.units import parse
 
@@ -24,13 +25,14 @@ class Slot(NamedTuple):
 
     @property
     def active(self) -> bool:
-        """False for the law of a slot that is switched off: such a one has no source."""
-        return bool(self.law.source)
+        """False for a slot of physics that is switched off: its law has no source, as it says nothing."""
+        return bool(self.law.source) or self.path.rpartition(".")[2] not in SLOTS
 
     @property
     def words(self) -> str:
-        """What the law does, in one line."""
-        return (type(self.law).__doc__ or "").splitlines()[0]
+        """What the law does, in a sentence."""
+        sentence = (type(self.law).__doc__ or "").splitlines()[0].split(". ")[0]
+        return sentence if sentence.endswith(".") else f"{sentence}."
 
 
 def sections(run: Run) -> str:
@@ -50,7 +52,13 @@ def modelled(scene: Scene | None) -> str:
     slots = [Slot("film", scene.film), *_slots(scene)]
     on, off = [each for each in slots if each.active], [each for each in slots if not each.active]
     rows = [
-        [each.path, each.law.name, each.words, Raw(source(each.law.source).replace("Source: ", "", 1))] for each in on
+        [
+            each.path,
+            each.law.name,
+            each.words,
+            Raw(source(each.law.source).replace("Source: ", "", 1) if each.law.source else "–"),
+        ]
+        for each in on
     ]
     without = [f"{each.path.replace('_', ' ')}: {each.words}" for each in off]
     warnings = scene.warnings()

@@ -42,7 +42,9 @@ _REMEDY = {  # of a flag; the quantities that show by how much
     RangeFlag.STIFF_WEAR: ("Use a smaller control.change.", ()),
     RangeFlag.OUTSIDE_FIT: ("Check single points with film.model = 'deterministic'.", ("error_friction", "error_film")),
     RangeFlag.OTHER_LEVEL: ("Use film.model = 'deterministic' for these outputs.", ()),
-    RangeFlag.UNSURE: ("Use film.model = 'deterministic', there with an --accuracy or a finer --grid.", ("error_friction", "error_film")),
+    RangeFlag.UNSURE: (
+        "Use film.model = 'deterministic', with --accuracy or a finer --grid.", ("error_friction", "error_film"),
+    ),
     RangeFlag.BY_THE_CLOCK: ("Use tribofilm.dose = 'residence'.", ()),
     RangeFlag.SCUFFING: ("Lower load, sliding or oil temperature.", ("scuffing_ratio",)),
     RangeFlag.PITTED: ("Trust the onset more than the growth.", ("micropitted_area_1", "micropitted_area_2")),

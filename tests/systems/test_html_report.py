@@ -178,6 +178,9 @@ def test_scene_laws_versions_and_digests_are_told(parsed: Parsed, opened: Run) -
     for words in ("53.7 N", "9.525 mm", "Ghanbarzadeh et al. 2016", "The solids stay bare.", *opened.files.values()):
         assert words in parsed.text, words
     assert opened.scene.digest() in parsed.text
+    on, off = parsed.text.split("What was modelled, and what was not")[1].split("Switched off")
+    assert "A circular or elliptical contact." in on
+    assert "fatigue: Load cycles leave the solids as they are." in off
     assert "https://doi.org/10.1016/j.triboint.2014.12.018" in parsed.links
 
 
