@@ -117,7 +117,10 @@ def _by_cause(run: Run) -> Iterator[str]:
     """Yield a table of the end's errors by cause, with bars of their shares."""
     names = [name for name in _SHOWN if name in run.causes and name in run.dataset]
     if not names:
-        yield paragraph("This result does not say its errors by cause: a version before this one has made it.", "quiet")
+        yield paragraph(
+            "This result does not say its errors by cause: an older version has made it, or it had no checkpoint.",
+            "quiet",
+        )
         return
     used = [cause for cause in CAUSES if any(run.causes[name][cause] > 0.0 for name in names)]
     rows = []
