@@ -14,6 +14,7 @@ _PREFIXED = ("m", "Pa", "W", "N", "J", "N m")  # units that take a prefix
 _SLOW = 1e-3  # m/s: smaller speeds take one, too
 _VOLUME = 1e-18  # m3: a cubic micrometre
 _TIMES = ((300.0, 1.0, "s"), (5.0 * 3600.0, 60.0, "min"), (math.inf, 3600.0, "h"))  # up to [s], in s, name
+_MOST_DIGITS = 5  # after the point: longer numbers have an exponent
 _OVERFLOW = 2.0  # a prefix serves from this many of its unit on
 _EXPONENTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _RPM = 30.0 / math.pi
@@ -83,5 +84,7 @@ def stated(value: float, half: float | None = None) -> str:
     if not math.isfinite(half):
         return f"{value:.3g} ± ?"
     first = -math.floor(math.log10(half)) + (1 if half < 2.0 * 10.0 ** math.floor(math.log10(half)) else 0)
+    if first > _MOST_DIGITS:
+        return f"{value:.2g} ± {half:.1g}"
     digits = max(first, 0)
     return f"{value:.{digits}f} ± {half:.{digits}f}"

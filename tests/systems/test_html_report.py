@@ -356,7 +356,13 @@ def test_a_difference_of_temperatures_stays_in_kelvin() -> None:
 
 @pytest.mark.parametrize(
     ("value", "half", "text"),
-    [(0.1037, 0.0084, "0.104 ± 0.008"), (52.3, 5.6, "52 ± 6"), (5.2, 0.14, "5.20 ± 0.14"), (1.0, math.inf, "1 ± ?")],
+    [
+        (0.1037, 0.0084, "0.104 ± 0.008"),
+        (52.3, 5.6, "52 ± 6"),
+        (5.2, 0.14, "5.20 ± 0.14"),
+        (1.0, math.inf, "1 ± ?"),
+        (1.7e-7, 5e-8, "1.7e-07 ± 5e-08"),
+    ],
 )
 def test_values_are_stated_to_the_digits_of_their_error(value: float, half: float, text: str) -> None:
     assert stated(value, half) == text
