@@ -13,7 +13,7 @@ from typing import Protocol
 
 from contact_core.errors import ContactError
 
-from . import build, check, compare, cosim, fit, listing, report, run, stribeck, surfaces
+from . import build, check, compare, cosim, fit, listing, report, run, stribeck, surfaces, sweep
 from . import map as mapping
 
 
@@ -35,6 +35,7 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "report": (report, "show the results of a run as one HTML page"),
     "compare": (compare, "show runs beside each other, with their error bands, in a table and an HTML page"),
     "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),
+    "sweep": (sweep, "run a scene with many values of some of its keys"),
     "fit": (fit, "fit constants of a scene to measured films, friction or wear"),
     "map": (mapping, "make the map of a scene for film.model = 'map', by solved contacts"),
     "build": (build, "build the FMU of a scene, for another tool"),
