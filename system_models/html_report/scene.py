@@ -9,6 +9,7 @@ from contact_core.laws import SLOTS
 from contact_core.scene import Scene
 from contact_core.scene.units import parse
 
+from ..explain import left_out
 from ..machines.assembly import Assembly
 from .markup import Raw, bullets, equation, folded, heading, paragraph, section, source, table, text
 from .opened import Run
@@ -49,8 +50,7 @@ def modelled(scene: Scene | None) -> str:
     """Return what was modelled and what was not, with sources; nothing if the scene cannot be made again."""
     if scene is None:
         return ""
-    slots = [Slot("film", scene.film), *_slots(scene)]
-    on, off = [each for each in slots if each.active], [each for each in slots if not each.active]
+    on = [each for each in (Slot("film", scene.film), *_slots(scene)) if each.active]
     rows = [
         [
             each.path,
@@ -60,15 +60,15 @@ def modelled(scene: Scene | None) -> str:
         ]
         for each in on
     ]
-    without = [f"{each.path.replace('_', ' ')}: {each.words}" for each in off]
+    without = [[each.key, each.value or "–", each.cost] for each in left_out.of(scene)]
     warnings = scene.warnings()
     return section(
         "modelled",
         "What was modelled, and what was not",
         table(["part of the model", "law", "in short", "source"], rows, "laws"),
         folded("Equations", *(_equations(each) for each in on)),
-        heading("Switched off"),
-        bullets(without) or paragraph("Nothing: every slot of the model has a law."),
+        heading("Left out"),
+        table(["part of the model", "choice", "what is left out, and what that costs"], without, "laws"),
         *((heading("Not resolved well"), bullets(warnings)) if warnings else ()),
     )
 

@@ -12,6 +12,7 @@ from fmu_src.native.tables import tables_h
 from fmu_src.native.translate import Num, Untranslatable
 
 from .part import Part, State, Values, start_values
+from .resources import guid
 from .scalars import INSTEAD
 from .variables import variables
 
@@ -30,15 +31,16 @@ def step(part: Part, state: State, inputs: Values, dt: float) -> Found:
     return after, part.outputs(after, inputs)
 
 
-def sources(part: Part, token: str, fmi: Version = 2) -> dict[str, bytes]:
+def sources(part: Part, fmi: Version = 2) -> dict[str, bytes]:
     """Return name and content of the sources. Raises SceneError if the component has no C."""
+    token, states = guid(part, "native", fmi), guid(part, "native")
     try:
         texts = _written(part)
     except Untranslatable as error:
         raise SceneError(
             f"A {part.name} has no native FMU so far ({error}). Take flavour = 'isolated' for the components."
         ) from error
-    texts |= {"tables.h": tables_h(), "model.c": model_c(variables(part), token, ranges=False)}
+    texts |= {"tables.h": tables_h(), "model.c": model_c(variables(part), token, states, ranges=False)}
     return {**native.runtime(fmi), **{name: text.encode() for name, text in texts.items()}}
 
 
