@@ -6,6 +6,8 @@
     explain     explain: laws, numbers and their sources, what is left out, what to trust
     surfaces    surfaces: what a grid shows of the surfaces
     run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
+    report      report: a run as one HTML page
+    compare     compare: runs beside each other, with their error bands
     stribeck    stribeck: Stribeck curves
     sweep       sweep: a scene with many values of its keys
     fit         fit: constants of a scene from measured numbers

@@ -57,7 +57,7 @@ def _run_in(folder: Path, scene: Scene, duty: "Duty", fields: "Fields | None", a
         ask_before(folder, origin.attributes(scene, duty, count), arguments.force)
     with continued_by_resume(lambda: checkpoint.file if checkpoint.count else None):
         dataset = _simulate(scene, duty, checkpoint, fields)
-        code = _report(dataset, scene, duty, folder, fields)
+        code = _report(dataset.assign_attrs(_causes(dataset, scene, checkpoint)), scene, duty, folder, fields)
     checkpoint.remove()
     return code
 
@@ -89,6 +89,13 @@ def _finished(folder: Path, scene: Scene, duty: "Duty", fields: int) -> int | No
         return None
     note(f"This run is finished, its result is in '{folder}'. Leave out --resume to compute it again.")
     return 1 if report.invalid_rows(dataset) else 0
+
+
+def _causes(dataset: "xr.Dataset", scene: Scene, checkpoint: "Checkpoint") -> dict[str, str]:
+    """Return the errors at the end of the run by their causes, as attributes of its result."""
+    from ..run import causes
+
+    return causes.attribute(scene, checkpoint, float(dataset["time"].values[-1]))
 
 
 def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path, fields: "Fields | None") -> int:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from fmu_src.flavours import Flavour
 
     from ..machines.assembly import Assembly
+    from ..machines.reading import Machine
     from ..master import System
 
 
@@ -29,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.ssp:
         return _export(assembly, arguments.ssp, arguments.flavour or "isolated")
     folder = output_folder(arguments.out, machine.name)
-    return _run_in(folder, assembly, machine.kind, arguments)
+    return _run_in(folder, assembly, machine, arguments)
 
 
 def _changes(arguments: argparse.Namespace) -> dict[str, str]:
@@ -56,9 +57,10 @@ def _export(assembly: "Assembly", path: str, flavour: "Flavour") -> int:
     return 0
 
 
-def _run_in(folder: Path, assembly: "Assembly", kind: str, arguments: argparse.Namespace) -> int:
+def _run_in(folder: Path, assembly: "Assembly", machine: "Machine", arguments: argparse.Namespace) -> int:
     import tempfile
 
+    from ..machines.reading import described
     from .simulation import carry_out
 
     unchecked: bool = arguments.unchecked
@@ -69,7 +71,8 @@ def _run_in(folder: Path, assembly: "Assembly", kind: str, arguments: argparse.N
         system = assembly.system(Path(files), flavour, here=True)
 
         def report(dataset: "xr.Dataset", folder: Path) -> int:
-            code = _report(dataset, folder, assembly, kind)
+            dataset = dataset.assign_attrs(described(machine))
+            code = _report(dataset, folder, assembly, machine.kind)
             return code if unchecked else _check(dataset, folder, assembly, system, code)
 
         return carry_out(

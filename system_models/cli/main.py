@@ -13,7 +13,7 @@ from typing import Protocol
 
 from contact_core.errors import ContactError
 
-from . import build, check, cosim, explain, fit, listing, new, run, stribeck, surfaces, sweep
+from . import build, check, compare, cosim, explain, fit, listing, new, report, run, stribeck, surfaces, sweep
 from . import map as mapping
 
 
@@ -34,6 +34,8 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "explain": (explain, "name the laws of a scene, the sources of its numbers, and what it leaves out"),
     "surfaces": (surfaces, "what a scene's grid shows of its surfaces"),
     "run": (run, "run a scene's contact, or a machine, through its duty"),
+    "report": (report, "show the results of a run as one HTML page"),
+    "compare": (compare, "show runs beside each other, with their error bands, in a table and an HTML page"),
     "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),
     "sweep": (sweep, "run a scene with many values of some of its keys"),
     "fit": (fit, "fit constants of a scene to measured films, friction or wear"),
