@@ -25,6 +25,7 @@ from ..kernels.mixed.newton import solve_newton
 from ..kernels.mixed.problem import Iterate, Solution
 from ..kernels.mixed.stopping_rule import excess
 from ..kernels.multigrid.cycle import is_applicable, solve_smooth
+from ..progress import tell
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .lengths import inlet_length
 from .scaled import LOAD_ACCEPTED, Scaled
@@ -273,7 +274,9 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     tries = (*_first_tries(scaled, step), *algorithms) if step else algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, (True, True, math.inf)
     apart = _stays_apart(scaled, start, step)
-    for method, begin in tries:
+    for number, (method, begin) in enumerate(tries, 1):
+        if number > 1:
+            tell("another algorithm", number, len(tries))
         if settings.lumped and method != "hybrid":  # the other methods have the split criterion only
             continue
         found = solver.run(method, begin)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
+from .alive import alive
 from .console import output_folder
 from .scenes import add_scene, contact, warn
 
@@ -89,7 +90,7 @@ def _sweep(scene: Scene, duty: "Duty", curves: "Curves") -> None:
     bar = tqdm(
         total=len(curves.plan.times) * len(curves.plan.speeds),
         desc=scene.name,
-        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} points [{elapsed}<{remaining}]",
+        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} points [{elapsed}<{remaining}{postfix}]",
     )
 
     def show(stage: str, count: int) -> None:
@@ -97,7 +98,7 @@ def _sweep(scene: Scene, duty: "Duty", curves: "Curves") -> None:
         bar.update(count - bar.n)
         bar.refresh()
 
-    with bar, logging_redirect_tqdm():
+    with bar, logging_redirect_tqdm(), alive(bar):
         measure(scene, duty, curves, show)
 
 

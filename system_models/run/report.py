@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from contact_core.state import RangeFlag
-
 from ..store.results import ERROR
 
 if TYPE_CHECKING:
@@ -122,11 +120,11 @@ def _apart(minutes: np.ndarray) -> list[str]:
 
 
 def closing_lines(dataset: xr.Dataset) -> list[str]:
-    """Return sentences on load cycles, the pressures that drove the blocks, validity and range flags."""
+    """Return sentences on load cycles, the pressures that drove the blocks, and warm bodies."""
     last = dataset.isel(time=-1)
     first, second = (f"{int(last[f'load_cycles_{body}']):,}".replace(",", " ") for body in (1, 2))
     cycles = f"Load cycles: {first} of body 1, {second} of body 2."
-    return [cycles, *_blocks(last), *_warmth(dataset), _validity(dataset), *_range(dataset)]
+    return [cycles, *_blocks(last), *_warmth(dataset)]
 
 
 def _warmth(dataset: xr.Dataset) -> list[str]:
@@ -158,24 +156,6 @@ def _blocks(last: xr.Dataset) -> list[str]:
 def invalid_rows(dataset: xr.Dataset) -> int:
     """Return the number of rows that the FMU called invalid."""
     return int((~dataset["valid"].values).sum())
-
-
-def _validity(dataset: xr.Dataset) -> str:
-    count, total = invalid_rows(dataset), dataset.sizes["time"]
-    if not count:
-        return f"Validity: all {total} rows are valid."
-    first = float(dataset["time"].values[~dataset["valid"].values][0])
-    return (
-        f"Validity: {count} of {total} rows are INVALID, the first at {first:g} s; "
-        "their outputs stand as they were before."
-    )
-
-
-def _range(dataset: xr.Dataset) -> list[str]:
-    flags, total = dataset["range_flags"].values, dataset.sizes["time"]
-    counts = {flag: int(((flags & flag) > 0).sum()) for flag in RangeFlag}
-    raised = [f"Range, in {n} of {total} rows: {flag.text}." for flag, n in counts.items() if n]
-    return raised or ["Range: nothing to note."]
 
 
 def write_overview(dataset: xr.Dataset, path: Path) -> Path:
