@@ -96,7 +96,9 @@ def _introduce(scene: Scene, duty: "Duty") -> None:
     """Print what the contact is like, before it is solved."""
     from ..run import trust
 
-    print(scene.description, *trust.before(scene, duty), "", sep="\n", flush=True)
+    below = [f"Body {body}: {text}." for body, text in enumerate(microroughness(scene), 1)]
+    about = [*trust.before(scene, duty), *trust.wrapped(*chosen(scene), *below)]
+    print(*trust.wrapped(scene.description), *about, "", sep="\n", flush=True)
 
 
 def _report(
@@ -113,9 +115,8 @@ def _report(
 
     maps = fields.dataset() if fields and fields.kept else None
     dataset = origin.with_scene(dataset, scene, duty, len(fields.times) if fields else 0)
-    below = (f"Body {body}: {text}." for body, text in enumerate(microroughness(scene), 1))
-    print(report.table(dataset), *trust.legend(), *chosen(scene), *below, *report.closing_lines(dataset), sep="\n")
-    print(*trust.after(scene, dataset, errors), sep="\n")
+    print(report.table(dataset, trust.width()), *trust.legend(), sep="\n")
+    print(*trust.wrapped(*report.closing_lines(dataset)), *trust.after(scene, dataset, errors), sep="\n")
     written = [*results.write(dataset, folder, maps=maps), report.write_overview(dataset, folder / "overview.png")]
     if maps:
         written.append(track_picture.write(dataset, maps, folder / "track.png"))

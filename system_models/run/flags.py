@@ -108,8 +108,7 @@ def _fit(case: Case) -> Fit:
 
 def _unsure(scene: Scene, rows: xr.Dataset) -> str:
     names = {"friction": "error_friction", "h_c": "error_film"}
-    worst = ", ".join(f"{name} up to {100.0 * float(rows[error].max()):.0f} %" for name, error in names.items())
-    return f"{worst}; asked for {100.0 * (scene.control.accuracy or 0.5):.3g} %"
+    return ", ".join(f"{name} up to {100.0 * float(rows[error].max()):.0f} %" for name, error in names.items())
 
 
 def _scuffing(scene: Scene, rows: xr.Dataset) -> str:

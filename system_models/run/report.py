@@ -69,8 +69,11 @@ _PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
 )
 
 
-def table(dataset: xr.Dataset) -> str:
-    """Return about ten rows of the run as text, denser early on; all rows if they are few."""
+def table(dataset: xr.Dataset, width: float = math.inf) -> str:
+    """Return about ten rows of the run as text, denser early on; all rows if they are few.
+
+    Columns that do not fit into a line of `width` characters follow below, each time with the time.
+    """
     time = dataset["time"].values
     rows = list(range(len(time)))
     if len(time) > _FEW_ROWS:
@@ -80,9 +83,13 @@ def table(dataset: xr.Dataset) -> str:
         [heading, unit, *_stated(dataset, name, rows, factor, digits)]
         for heading, unit, name, factor, digits in (*_COLUMNS, *_below(dataset))
     ]
-    widths = [max(map(len, column)) for column in columns]
-    padded = [[cell.rjust(width) for cell in column] for column, width in zip(columns, widths, strict=True)]
-    return "\n".join("  ".join(line) for line in zip(*padded, strict=True))
+    padded = [[cell.rjust(max(map(len, column))) for cell in column] for column in columns]
+    parts = [padded[:1]]
+    for column in padded[1:]:
+        if len(parts[-1]) > 1 and sum(len(each[0]) + 2 for each in (*parts[-1], column)) > width + 2:
+            parts.append(padded[:1])
+        parts[-1] = [*parts[-1], column]
+    return "\n\n".join("\n".join("  ".join(line) for line in zip(*part, strict=True)) for part in parts)
 
 
 def _below(dataset: xr.Dataset) -> list[tuple[str, str, str, float, int]]:

@@ -4,6 +4,7 @@ import math
 import shutil
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -24,11 +25,10 @@ _POOR, _UNKNOWN = 0.35, 1.0  # relative half widths from which on a quantity is 
 _SHORT, _LONG = 60, 120  # columns of text
 
 _LEGEND = {  # heading of the table: its meaning
-    "friction": "coefficient of friction",
     "h_c": "mean film over the inner 2/3 of the contact",
-    "lambda": "h_c / present roughness (not the lambda of handbooks)",
-    "tribofilm, wear": "mean thickness and depth over the track of body 1, 2",
-    "A_c, W_c": "share of the solids in Hertz's area and in the load",
+    "lambda": "h_c / present roughness, not that of handbooks",
+    "tribofilm, wear": "means over the track of body 1, 2",
+    "A_c, W_c": "the solids' share of Hertz's area, of the load",
 }
 _NAMES = {  # of an output with a stated error: in words
     "friction_coefficient": "friction",
@@ -40,11 +40,11 @@ _NAMES = {  # of an output with a stated error: in words
 }
 _ABSOLUTE = {"contact_load_ratio"}
 _CAUSES = {
-    "time": "time steps",
-    "sampling": "few instants",
-    "grid": "grid",
-    "iteration": "early stops",
-    "curves": "fitted curves",
+    "time": "the time steps",
+    "sampling": "the few instants solved",
+    "grid": "the grid",
+    "iteration": "solutions that stop early",
+    "curves": "the fitted curves",
 }
 
 
@@ -100,7 +100,7 @@ def _film(cases: Sequence[Case]) -> str:
         return f"{text}, as these are: full film."
     ratios = [film / rough for film in films]
     return (
-        f"{text}, roughness {1e9 * rough:.3g} nm, lambda of handbooks {_span(ratios)}: "
+        f"{text}; roughness {1e9 * rough:.3g} nm; so lambda of handbooks is {_span(ratios)}: by its limits "
         f"{_regime(min(ratios), max(ratios))}."
     )
 
@@ -113,8 +113,8 @@ def _regime(least: float, most: float) -> str:
 
 def _word(ratio: float) -> str:
     if ratio < _MIXED:
-        return f"boundary lubrication (below {_MIXED:g})"
-    return f"mixed lubrication ({_MIXED:g} to {_FULL:g})" if ratio < _FULL else f"full film (above {_FULL:g})"
+        return "boundary lubrication"
+    return "mixed lubrication" if ratio < _FULL else "full film"
 
 
 def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
@@ -135,7 +135,7 @@ def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
 def legend() -> list[str]:
     """Return what the columns of the table are."""
     columns = "; ".join(f"{heading}: {meaning}" for heading, meaning in _LEGEND.items())
-    return wrapped(f"Columns: {columns}; +-: half width of the error (95 %).")
+    return wrapped(f"Columns: {columns}; +-: error (95 %).")
 
 
 def after(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> list[str]:
@@ -143,8 +143,7 @@ def after(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> lis
 
     `errors` are those of the last state by `contact_core.uncertainty`; empty if that is not known.
     """
-    texts = [*flags.sentences(scene, dataset), _verdict(scene, dataset, errors)]
-    return [line for text in texts for line in wrapped(text)]
+    return wrapped(*flags.sentences(scene, dataset), _verdict(scene, dataset, errors))
 
 
 def _verdict(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> str:
@@ -156,10 +155,13 @@ def _verdict(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> 
             f"Verdict: {int((~valid).sum())} of {total} rows are INVALID, the first at {first:g} s; their outputs "
             "stand as they were before."
         )
-    known = [_known(*pair) for pair in _stated(dataset, errors)]
+    known: dict[str, list[str]] = {}
+    for word, half, error, absolute in _stated(dataset, errors):
+        known.setdefault(_cause(error), []).append(_known(word, half, absolute))
     if not known:
         return f"Verdict: all {total} rows were computed; no errors are stated."
-    return f"Verdict: at the end {'; '.join(known)}. {_way_out(scene)}".rstrip()
+    parts = [f"{', '.join(words)}{cause and f' ({cause})'}" for cause, words in known.items()]
+    return f"Verdict: known at the end: {'; '.join(parts)}. {_way_out(scene)}".rstrip()
 
 
 def _stated(dataset: xr.Dataset, errors: Mapping[str, Error]) -> list[tuple[str, float, Error | None, bool]]:
@@ -182,18 +184,20 @@ def _half(last: xr.Dataset, name: str, absolute: bool) -> float | None:
     return half / value if value > 0.0 else None
 
 
-def _known(word: str, half: float, error: Error | None, absolute: bool) -> str:
-    """Return how well an output is known, and why it is not known better."""
-    cause = f" ({_cause(error)})" if error is not None and error.together > 0.0 else ""
+def _known(word: str, half: float, absolute: bool) -> str:
+    """Return how well an output is known."""
     if absolute:
-        return f"{word} to {half:.2g}{cause}"
-    if not half < _UNKNOWN:
-        return f"{word} hardly (error {100.0 * half:.0f} %){cause}" if math.isfinite(half) else f"{word} not at all"
-    return f"{word} {'only ' if half > _POOR else ''}to {100.0 * half:.2g} %{cause}"
+        return f"{word} to +- {half:.2g}"
+    if not math.isfinite(half):
+        return f"{word} not at all"
+    percent = f"{100.0 * half:.2g} %" if half < _UNKNOWN else f"a factor of {1.0 + half:.2g}"
+    return f"{word} {'only ' if half > _POOR else ''}to {percent}"
 
 
-def _cause(error: Error) -> str:
-    """Return the cause of most of an error in words."""
+def _cause(error: Error | None) -> str:
+    """Return the cause of most of an error in words; empty if it is not known."""
+    if error is None or error.together == 0.0:
+        return ""
     name, half = max(error._asdict().items(), key=lambda item: item[1])
     others = math.sqrt(max(error.together**2 - half**2, 0.0))
     return _CAUSES[name] if half > 2.0 * others else f"mostly {_CAUSES[name]}"
@@ -205,10 +209,15 @@ def _way_out(scene: Scene) -> str:
     return "" if scene.control.accuracy else "Surer: --accuracy 5%."
 
 
-def wrapped(text: str) -> list[str]:
-    """Return a paragraph as lines as wide as the terminal, the later ones indented."""
-    width = min(max(shutil.get_terminal_size((_LONG, 24)).columns, _SHORT), _LONG)
-    return textwrap.wrap(text, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
+def width() -> int:
+    """Return the characters of a line: those of the terminal, within reason."""
+    return min(max(shutil.get_terminal_size((_LONG, 24)).columns, _SHORT), _LONG)
+
+
+def wrapped(*texts: str) -> list[str]:
+    """Return paragraphs as lines of at most `width` characters, all but the first one of each indented."""
+    how: dict[str, Any] = {"subsequent_indent": "  ", "break_long_words": False, "break_on_hyphens": False}
+    return [line for text in texts for line in textwrap.wrap(text, width(), **how)]
 
 
 def _span(values: Iterable[float], unit: str = "") -> str:
