@@ -5,6 +5,8 @@ from contextlib import contextmanager
 
 Listener = Callable[[str, int, int], None]  # of what is being done, its number, and how many there are
 
+ALGORITHM = "another algorithm"  # for one and the same instant
+
 _listeners: list[Listener] = []
 
 

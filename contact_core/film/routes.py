@@ -25,7 +25,7 @@ from ..kernels.mixed.newton import solve_newton
 from ..kernels.mixed.problem import Iterate, Solution
 from ..kernels.mixed.stopping_rule import excess
 from ..kernels.multigrid.cycle import is_applicable, solve_smooth
-from ..progress import tell
+from ..progress import ALGORITHM, tell
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .lengths import inlet_length
 from .scaled import LOAD_ACCEPTED, Scaled
@@ -276,7 +276,7 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     apart = _stays_apart(scaled, start, step)
     for number, (method, begin) in enumerate(tries, 1):
         if number > 1:
-            tell("another algorithm", number, len(tries))
+            tell(ALGORITHM, number, len(tries))
         if settings.lumped and method != "hybrid":  # the other methods have the split criterion only
             continue
         found = solver.run(method, begin)

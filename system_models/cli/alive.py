@@ -4,11 +4,13 @@ import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from time import monotonic
 from typing import Any
 
-from contact_core.progress import listening
+from contact_core.progress import ALGORITHM, listening
 
 _EVERY, _EVERY_IN_A_FILE = 0.5, 60.0  # s between two times of drawing the bar: on a terminal, into a file
+_SOON = 2.0  # s, before which no time is estimated
 _COMPILING = "compiling kernels, once after installation: {} so far"
 
 
@@ -41,17 +43,29 @@ class _Doing:
     """What is being done now."""
 
     def __init__(self) -> None:
-        self._told = ""
+        self._told, self._within, self._begin, self._done, self._left = "", "", 0.0, 0, 0
         self._depth = self._compiled = 0
         self._listener: Any = None
 
     def told(self, what: str, number: int, total: int) -> None:
         """Take what the contact says, see `contact_core.progress`."""
-        self._told = f"{what} {number} of {total}"
+        if what == ALGORITHM:  # within the part that was told before
+            self._within = f", {what} {number} of {total}"
+            return
+        if number == 1:
+            self._begin = monotonic()
+        self._told, self._within = f"{what} {number} of {total}", ""
+        self._done, self._left = number - 1, total - number
 
     def text(self) -> str:
-        """Return what is being done in a few words."""
-        return _COMPILING.format(self._compiled) if self._depth else self._told
+        """Return what is being done in a few words, and how long the parts that are left will take."""
+        if self._depth:
+            return _COMPILING.format(self._compiled)
+        spent = monotonic() - self._begin
+        if self._done < 1 or spent < _SOON:
+            return (self._told + self._within).removeprefix(", ")
+        left = spent / self._done * (self._left + 1)
+        return f"{self._told}{self._within}, about {left:.0f} s left of them"
 
     def watch_compiler(self) -> None:
         """Listen to numba, once it is there: the regression level does without and need not load it."""

@@ -52,7 +52,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stdout.flush()  # here, so that a closed pipe is seen here and not at exit
         return code
     except ContactError as error:
-        print(f"tribofmu: {error}\nSee {page_of(error, arguments.name)}.", file=sys.stderr)
+        print(f"tribofmu: {error} See {page_of(error, arguments.name)}.", file=sys.stderr)
         return 2
     except KeyboardInterrupt as interrupt:
         print(f"tribofmu: Interrupted. {interrupt}".rstrip(), file=sys.stderr)

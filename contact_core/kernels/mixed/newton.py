@@ -45,9 +45,10 @@ _RISE = (2.0, 1.0)  # largest rise of a fluid pressure in a step, and by how muc
 _TOUCH = 0.95  # gap in floors below which a node becomes solid
 _TRIAL = 1e-6  # largest relative change of a gap, or change of a pressure, of a difference of flows
 _RELEASES = 1  # a contact that returns after so many releases stays: some would change for ever
-# from this step on, nodes that asperities have held and let go so often take half of a correction: else some would be
-# held and let go in turn for ever, each time with its neighbours
-_CALM_FROM, _OFTEN = 6, 2
+# from this step on, if the pressure has last changed by less, nodes that asperities have held and let go twice of late
+# take half of a correction: else some would be held and let go in turn for ever, each time with its neighbours
+_CALM_FROM, _NEAR = 6, 0.05
+_KEPT = 0.8  # weight of a turn in the next step
 _LEAST_SCALE = 1e-3  # rise of the inflow by the own pressure, over that of the oil that moves with the gap
 
 
@@ -143,7 +144,7 @@ class _Film:
         self.rows = slice(1, -1) if problem.wrapped else slice(None)  # that are no images
         self.inner = np.zeros(shape, np.bool_)
         self.inner[1:-1, 1:-1] = True
-        self.releases, self.sorted_anew = np.zeros(shape, np.int64), np.zeros(shape, np.int64)
+        self.releases, self.turns = np.zeros(shape, np.int64), np.zeros(shape)
         self.response: Array | None = None  # of a single row, by distance
         if problem.wrapped and shape[0] == 3:
             unit = np.zeros(shape)
@@ -170,7 +171,7 @@ class _Film:
         self.releases += before & ~self.solid
         sorted_into = self.held, self.rest, self.give, self.gain, self.lack
         sort_nodes(self.p, self.f, self.r, self.h, self.solid, *q.layer, *sorted_into)
-        self.sorted_anew += self.held != held
+        self.turns = _KEPT * self.turns + (self.held != held)
 
     def _residual(self, solid: Mask, out: Array) -> None:
         """Compute the net inflow of every node that is full and not `solid`."""
@@ -311,7 +312,7 @@ class _Film:
         fall = float(np.sqrt((weight * thinner**2).sum() / max(float(weight.sum()), 1e-300))) / _FALL
         rise = float((np.where(wet, np.minimum(dp, q.cap - old), 0.0) / (_RISE[0] + _RISE[1] * old)).max())
         share = 1.0 / max(fall, rise, 1.0)
-        part = np.where(self.sorted_anew >= _OFTEN, 0.5, 1.0) if calm else np.ones(1)
+        part = np.where(self.turns > 1.0, 0.5, 1.0) if calm else np.ones(1)
         self.p = np.clip(old + share * part * dp, 0.0, q.cap)
         set_edge(self.p, q.edge, q.wrapped)
         self.rigid += share * d_rigid
@@ -362,13 +363,15 @@ def solve_newton(
     The result is finite, or its `pressure_change` is infinite.
     """
     film = _Film(half_space, problem, start)
+    layered = problem.depth > 0.0 and film.response is None  # a single row comes to rest by itself
     film.evaluate()
     found = film.assess(0, np.inf, False, tolerance)
     for n in range(1, iterations + 1):
         correction = film.correction()
         if correction is None or not np.isfinite(correction[0]).all():
             return failed(start, np.zeros_like(film.p), problem.mass_old, n, "no Newton step")
-        change, share = film.advance(*correction, calm=n >= _CALM_FROM and problem.depth > 0.0)
+        calm = layered and n >= _CALM_FROM and found.pressure_change < _NEAR
+        change, share = film.advance(*correction, calm)
         film.evaluate()
         found = film.assess(n, change, share == 1.0, tolerance)
         if found.converged:
