@@ -43,7 +43,8 @@ class _Doing:
     """What is being done now."""
 
     def __init__(self) -> None:
-        self._told, self._within, self._begin, self._done, self._left = "", "", 0.0, 0, 0
+        self._told = self._within = ""
+        self._begin, self._first, self._done, self._left = 0.0, 0, 0, 0
         self._depth = self._compiled = 0
         self._listener: Any = None
 
@@ -52,10 +53,10 @@ class _Doing:
         if what == ALGORITHM:  # within the part that was told before
             self._within = f", {what} {number} of {total}"
             return
-        if number == 1:
-            self._begin = monotonic()
+        if number == 1 or not self._told:
+            self._begin, self._first = monotonic(), number
         self._told, self._within = f"{what} {number} of {total}", ""
-        self._done, self._left = number - 1, total - number
+        self._done, self._left = number - self._first, total - number
 
     def text(self) -> str:
         """Return what is being done in a few words, and how long the parts that are left will take."""

@@ -2,12 +2,12 @@
 
 from collections.abc import Callable
 from dataclasses import fields
-from math import isfinite
 
 import numpy as np
 import xarray as xr
 
 from contact_core.film.lengths import inlet_length
+from contact_core.laws.load_sharing import sliding_ratio
 from contact_core.regression.load_sharing import Fit, parted, surfaces_of
 from contact_core.regression.surfaces import Tribofilm, regression_film
 from contact_core.scene import Case, OperatingPoint, Scene
@@ -23,6 +23,7 @@ _IN_WORDS = {  # of the places of the fitted curves
     "slip": "slide-to-roll ratio",
     "pressed": "Hertz pressure / hardness",
 }
+_NO_MOST, _NO_LEAST = ("layers",), ("slip", "pressed")  # as in `FittedSharing.covers`
 Told = Callable[[Scene, xr.Dataset], str]
 
 
@@ -93,17 +94,19 @@ def _outside(scene: Scene, rows: xr.Dataset) -> str:
         case = Case.at(scene, operating_point(row))
         if case.op.slides and 0.0 in case.speeds:
             return "a body stands still; they are of two that move"
-        fit, ranges = _fit(case), regression_film(scene).sharing.FITTED
-        for name, (low, high) in ranges.items():
-            here = getattr(fit, name)
-            if isfinite(here) and not low <= here <= high:
-                return f"{_IN_WORDS[name]} {here:.3g}: fitted from {low:.3g} to {high:.3g}"
+        for name, here in _fit(case)._asdict().items():
+            low, high = regression_film(scene).sharing.FITTED[name]
+            if here > high and name not in _NO_MOST:
+                return f"{_IN_WORDS[name]} {here:.3g}: fitted to {high:.3g} at most"
+            if here < low and name not in _NO_LEAST:
+                return f"{_IN_WORDS[name]} {here:.3g}: fitted from {low:.3g} on"
     return ""
 
 
 def _fit(case: Case) -> Fit:
     first, second = (Tribofilm(0.0, 0.0, side.surface.rms, 0.0, side.surface.rms) for side in case.sides)
-    return parted(case, surfaces_of(case, (first, second)), case.smooth_film, case.growth).fit
+    fit = parted(case, surfaces_of(case, (first, second)), case.smooth_film, case.growth).fit
+    return fit._replace(slip=sliding_ratio(case.op.sliding_speed, case.op.entrainment_speed))
 
 
 def _unsure(scene: Scene, rows: xr.Dataset) -> str:
