@@ -5,7 +5,7 @@ from contextlib import contextmanager
 
 Listener = Callable[[str, int, int], None]  # of what is being done, its number, and how many there are
 
-ALGORITHM = "another algorithm"  # for one and the same instant
+ALGORITHM = "algorithm"  # of those that are tried in turn at an instant
 
 _listeners: list[Listener] = []
 

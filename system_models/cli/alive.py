@@ -50,8 +50,8 @@ class _Doing:
 
     def told(self, what: str, number: int, total: int) -> None:
         """Take what the contact says, see `contact_core.progress`."""
-        if what == ALGORITHM:  # within the part that was told before
-            self._within = f", {what} {number} of {total}"
+        if what == ALGORITHM:  # within the part that was told before; the first one goes without saying
+            self._within = f", {what} {number} of {total}" if number > 1 else ""
             return
         if number == 1 or not self._told:
             self._begin, self._first = monotonic(), number

@@ -28,7 +28,7 @@ def often(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_the_bar_shows_what_is_being_solved_and_forgets_it_at_the_end() -> None:
-    bar = Bar("instant 3 of 35, another algorithm 2 of 4")
+    bar = Bar("instant 3 of 35, algorithm 2 of 4")
     with alive.alive(bar):
         tell("instant", 3, 35)
         tell(ALGORITHM, 2, 4)
