@@ -15,10 +15,13 @@
     build       build: the FMU of a scene
     check       check: verdicts on an FMU
     cosim       cosim: a system of FMUs
+    completion  completion: a script for the shell
+    pages       the page of the documentation that explains an error
     scenes      the scene and duty that commands are given
     simulation  simulates a system with a checkpoint
     progress    progress bar, how to continue an unfinished run
     overwriting  results of other runs are not replaced without a word
+    alive       keeps the bar moving while one solution takes long and kernels compile
     console     notes, the folder of the results, --set
 
 Every module is light to import: what a command needs is loaded when it runs.

@@ -14,7 +14,11 @@ from .progress import continued_by_resume, note_replaced, shown
 from .scenes import chosen, contact, microroughness, warn
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import xarray as xr
+
+    from contact_core.state import Error
 
     from ..run.duty import Duty
     from ..run.fields import Fields
@@ -55,9 +59,10 @@ def _run_in(folder: Path, scene: Scene, duty: "Duty", fields: "Fields | None", a
         return code
     if not checkpoint.saved:
         ask_before(folder, origin.attributes(scene, duty, count), arguments.force)
+        _introduce(scene, duty)
     with continued_by_resume(lambda: checkpoint.file if checkpoint.count else None):
-        dataset = _simulate(scene, duty, checkpoint, fields)
-        code = _report(dataset.assign_attrs(_causes(dataset, scene, checkpoint)), scene, duty, folder, fields)
+        dataset, errors = _simulate(scene, duty, checkpoint, fields)
+        code = _report(dataset, errors, scene, duty, folder, fields)
     checkpoint.remove()
     return code
 
@@ -91,22 +96,32 @@ def _finished(folder: Path, scene: Scene, duty: "Duty", fields: int) -> int | No
     return 1 if report.invalid_rows(dataset) else 0
 
 
-def _causes(dataset: "xr.Dataset", scene: Scene, checkpoint: "Checkpoint") -> dict[str, str]:
-    """Return the errors at the end of the run by their causes, as attributes of its result."""
-    from ..run import causes
+def _introduce(scene: Scene, duty: "Duty") -> None:
+    """Print what the contact is like, before it is solved."""
+    from ..run import trust
 
-    return causes.attribute(scene, checkpoint, float(dataset["time"].values[-1]))
+    below = [f"Body {body}: {text}." for body, text in enumerate(microroughness(scene), 1)]
+    about = [*trust.before(scene, duty), *trust.wrapped(*chosen(scene), *below)]
+    print(*trust.wrapped(scene.description), *about, "", sep="\n", flush=True)
 
 
-def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path, fields: "Fields | None") -> int:
+def _report(
+    dataset: "xr.Dataset",
+    errors: "Mapping[str, Error]",
+    scene: Scene,
+    duty: "Duty",
+    folder: Path,
+    fields: "Fields | None",
+) -> int:
     """Print and write the result; return the exit code."""
-    from ..run import origin, report, track_picture
+    from ..run import causes, origin, report, track_picture, trust
     from ..store import results
 
     maps = fields.dataset() if fields and fields.kept else None
     dataset = origin.with_scene(dataset, scene, duty, len(fields.times) if fields else 0)
-    below = (f"Body {body}: {text}." for body, text in enumerate(microroughness(scene), 1))
-    print(scene.description, report.table(dataset), *chosen(scene), *below, *report.closing_lines(dataset), sep="\n")
+    dataset = dataset.assign_attrs(causes.attribute(errors))
+    print(report.table(dataset, trust.width()), *trust.legend(), sep="\n")
+    print(*trust.wrapped(*report.closing_lines(dataset)), *trust.after(scene, dataset, errors), sep="\n")
     written = [*results.write(dataset, folder, maps=maps), report.write_overview(dataset, folder / "overview.png")]
     if maps:
         written.append(track_picture.write(dataset, maps, folder / "track.png"))
@@ -114,8 +129,11 @@ def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path, fie
     return 1 if report.invalid_rows(dataset) else 0
 
 
-def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint", fields: "Fields | None") -> "xr.Dataset":
-    """Build the FMU and drive it, with a progress bar in minutes of test time."""
+def _simulate(
+    scene: Scene, duty: "Duty", checkpoint: "Checkpoint", fields: "Fields | None"
+) -> "tuple[xr.Dataset, Mapping[str, Error]]":
+    """Build the FMU and drive it, with a progress bar in minutes of test time; return the errors at the end, too."""
+    from contact_core import ContactState, uncertainty
     from fmu_src.package.build import build
 
     from ..run.contact import run
@@ -124,4 +142,7 @@ def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint", fields: "Fie
     bar = shown(scene.name, duration, "{n:.1f}/{total:.1f} min", 60.0, since)
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder, bar as progress:
         fmu = build(scene, Path(folder) / f"{scene.name}.fmu", "embedded")
-        return run(fmu, duty, duration, scene.operation.interval, progress, checkpoint, fields)
+        last: list[bytes] = []
+        dataset = run(fmu, duty, duration, scene.operation.interval, progress, checkpoint, fields, last.append)
+    known = last and last[0]  # no state: nothing has been solved
+    return dataset, uncertainty(scene, ContactState.from_bytes(last[0], scene)) if known else {}

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING
 from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
+from .alive import alive
 from .console import output_folder
 from .overwriting import ask_before
 from .scenes import add_scene, contact, warn
 
 if TYPE_CHECKING:
     from ..run.duty import Duty
-    from ..run.stribeck import Curves
+    from ..run.stribeck import Curves, Plan
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -59,6 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
     )
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
     warn(scene)
+    _introduce(scene, plan)
     curves = Curves(plan)
     with alone(folder):
         ask_before(folder, attributes(scene, duty), arguments.force, "stribeck")
@@ -69,6 +71,15 @@ def run(arguments: argparse.Namespace) -> int:
         except ContactError as error:
             raise ContactError(f"{error} {_kept(scene, duty, curves, folder)}".rstrip()) from error
         return _report_curves(scene, duty, curves, folder)
+
+
+def _introduce(scene: Scene, plan: "Plan") -> None:
+    """Print what the contact is like over the speeds of a sweep, before it is solved."""
+    from ..run import trust
+    from ..run.duty import Duty
+
+    swept = Duty(tuple(map(float, range(len(plan.speeds)))), tuple(map(plan.point, plan.speeds)))
+    print(*trust.wrapped(scene.description), *trust.before(scene, swept), "", sep="\n", flush=True)
 
 
 def _rubbing_times(words: Sequence[str]) -> list[float]:
@@ -109,7 +120,7 @@ def _sweep(scene: Scene, duty: "Duty", curves: "Curves") -> None:
     bar = tqdm(
         total=len(curves.plan.times) * len(curves.plan.speeds),
         desc=scene.name,
-        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} points [{elapsed}<{remaining}]",
+        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} points [{elapsed}<{remaining}{postfix}]",
     )
 
     def show(stage: str, count: int) -> None:
@@ -117,7 +128,7 @@ def _sweep(scene: Scene, duty: "Duty", curves: "Curves") -> None:
         bar.update(count - bar.n)
         bar.refresh()
 
-    with bar, logging_redirect_tqdm():
+    with bar, logging_redirect_tqdm(), alive(bar):
         measure(scene, duty, curves, show)
 
 
@@ -137,7 +148,7 @@ def _report_curves(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -
     from ..store import results
 
     dataset = curves.dataset(scene, duty)
-    print(scene.description, stribeck_report.table(dataset), sep="\n")
+    print(stribeck_report.table(dataset))
     print(*stribeck_report.shift_lines(dataset), *stribeck_report.closing_lines(dataset), sep="\n")
     written = results.write(dataset, folder, "stribeck")
     written.append(stribeck_report.write_figure(dataset, folder / "stribeck.png"))

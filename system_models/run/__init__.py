@@ -6,6 +6,7 @@
     causes                        errors at the end of a contact's run, by their causes
     fields, maps                  maps and profiles of a run at some times: collected, and as variables of its result
     track_picture                 picture of wear tracks and tribofilms
+    trust, flags                  what to trust of a run: lines before and after it; range flags in numbers
     report                        the printed table and the overview picture of a contact's run
     stribeck, stribeck_report     Stribeck curves at given times of rubbing; their table and picture
     fit, fit_data, fit_model      constants of a scene from measured numbers: the fit, the numbers, the model
