@@ -8,6 +8,8 @@
     expressions   expressions of Python
     loops         loops that stay loops
     results       what C functions return
+    grids         arrays at run time: elements, views, loops over them
+    grid_library  what functions and methods of numpy are for them
     arrays        what a law gives for each element of an array
     interpreter   statements of Python
     functions     calls, and C functions: one for each way in which a Python function is used
@@ -15,15 +17,20 @@
 Nothing here knows contacts: `fmu_src.native.program` says what is written.
 """
 
-from .code import wrapped
+from .code import c_type, declared, wrapped
 from .functions import Entry, Translator
-from .values import Num, Untranslatable, is_number, leaves, literal, parts, replaced
+from .grids import Stored
+from .values import Num, Untranslatable, array_kind, is_number, leaves, literal, parts, replaced
 
 __all__ = [
     "Entry",
     "Num",
     "Translator",
+    "Stored",
     "Untranslatable",
+    "array_kind",
+    "c_type",
+    "declared",
     "is_number",
     "leaves",
     "literal",

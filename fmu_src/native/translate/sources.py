@@ -59,6 +59,23 @@ def is_straight(node: Any) -> bool:
     return isinstance(last, ast.Return) and all(isinstance(each, ast.Assign) for each in before)
 
 
+def is_compiled(node: Any) -> bool:
+    """Return True for a function that numba compiles: its loops stay loops, and it may set arrays."""
+    marks = [ast.unparse(each) for each in getattr(node, "decorator_list", [])]
+    return any(mark.endswith("jit") for mark in marks)
+
+
+@functools.cache
+def names_set(node: Any) -> frozenset[str]:
+    """Return the names of arrays of which a function sets elements."""
+    targets = (each.value for each in ast.walk(node) if isinstance(each, ast.Subscript) and _is_stored(each))
+    return frozenset(each.id for each in targets if isinstance(each, ast.Name))
+
+
+def _is_stored(node: ast.Subscript) -> bool:
+    return isinstance(node.ctx, ast.Store)
+
+
 def expression_of(node: Any) -> ast.expr | None:
     """Return the expression of a function that is nothing else."""
     if isinstance(node, ast.Lambda):
