@@ -74,6 +74,18 @@ def calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple
     ]
 
 
+def stack_of(texts: Sequence[str]) -> int:
+    """Return the bytes of arrays that functions, each after those that it calls, hold at once, at most."""
+    held: dict[str, int] = {}
+    for text in texts:
+        head = re.search(r"^static .*?(\w+)\(", text, re.MULTILINE)
+        if head is None:
+            continue
+        own = sum(8 * int(size) for size in re.findall(r"^ +(?:double|int) \w+\[(\d+)\];", text, re.MULTILINE))
+        held[head[1]] = own + max((held[name] for name in set(re.findall(r"\w+(?=\()", text)) & held.keys()), default=0)
+    return max(held.values(), default=0)
+
+
 def source(texts: Sequence[str]) -> str:
     """Return a C file of functions."""
     needs = {"refuse(": REFUSE, "whole(": WHOLE}

@@ -26,7 +26,7 @@ from contact_core.state import Classes, ContactState, Mean, Outputs, changed
 from contact_core.surfaces.track_means import means_of
 
 from ..variables import variables
-from .calls import TRACKS, calling, header, initialise, source
+from .calls import TRACKS, calling, header, initialise, source, stack_of
 from .translate import Entry, Num, Stored, Translator, Untranslatable, array_kind, is_number, literal, parts
 
 Found = tuple[ContactState, Outputs]
@@ -55,6 +55,7 @@ def bound(given: Case, state: ContactState) -> Case:
     return case
 
 
+_MOST_STACK = 768 * 1024  # bytes of arrays; threads of Windows have 1 MB
 _BODIES = (2,)  # shape of arrays with a number for each body
 _COLD = 0.0  # K: no law covers it; as the temperature of a body: none yet
 _SAME_RADIUS = 1e-9  # relative: a host may convert units
@@ -252,6 +253,11 @@ def _equations(scene: Scene) -> dict[str, str]:
             f"The equations of '{scene.name}' cannot be written as C: {error}\ndocs/how-to/native_fmu.md says what "
             "can. Write that line so, or build with --flavour isolated."
         ) from error
+    if (bytes_ := stack_of(step_texts)) > _MOST_STACK:
+        raise SceneError(
+            f"stress.layers = {scene.depths.size} needs {bytes_ / 1024:.0f} kB of stack in C, more than the "
+            f"{_MOST_STACK / 1024:.0f} kB that every host has. Lower stress.layers, or build with --flavour isolated."
+        )
     outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
     new_state, new_outputs = stepped.result
     after, first = dict(paths(new_state)), dict(paths(first_state(scene)))

@@ -15,6 +15,7 @@ from . import code, grid_library, grids
 from .arrays import arrays_in, on_arrays
 from .expressions import Super
 from .interpreter import Scope
+from .grids import is_array
 from .results import (
     distinct,
     fields_of,
@@ -210,7 +211,7 @@ class Translator:
         """Return what a law gives for each element of arrays."""
         own, names, closure = len(operands), list(named), closure_of(function)
         straight = is_straight(closure.node)
-        operands = [grids.settled(unit, each, closure.name) for each in operands]
+        operands = [grids.settled(unit, each, closure.name, cheap=False) for each in operands]
 
         def one(*each: Any) -> Any:
             operands, named = list(each[:own]), dict(zip(names, each[own:], strict=True))
@@ -299,17 +300,15 @@ class Translator:
 
     def gives(self, unit: Unit, value: Any) -> None:
         """Return a value from the function of a unit."""
-        value = grids.settled(unit, value, "found")
-        unit.returned.append(value)
+        unit.returned.append(grids.settled(unit, value, "found") if unit.scratch else value)
         if unit.scratch:
             return
         wanted = [not number.text for _, number in leaves(unit.template)]
         numbers = [each for each, want in zip(matched(value, unit.template), wanted, strict=True) if want]
         fields = wanted_fields(unit.template, unit.part_names)
-        members = [(field, number) for field, number in zip(fields, numbers, strict=True) if "[" not in number.kind]
-        arrays = [number for number in numbers if "[" in number.kind]
-        for out, number in zip(unit.outs, arrays, strict=True):
-            unit.emit(code.set_to(out, number.kind, number.text))
+        members = [(field, number) for field, number in zip(fields, numbers, strict=True) if not is_array(number)]
+        for out, number in zip(unit.outs, filter(is_array, numbers), strict=True):
+            grids.give(unit, out, number)
         if not members:
             unit.emit(code.Do("return;"))
         elif len(members) == 1:

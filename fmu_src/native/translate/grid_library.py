@@ -60,7 +60,7 @@ def attribute(unit: Writer, grid: Grid, name: str) -> Any:
 def method(unit: Writer, grid: Grid, name: str, operands: list[Any], named: dict[str, Any]) -> Any:
     """Return what a method of an array gives."""
     found = _METHODS.get(name)
-    if found is None:
+    if found is None or (isinstance(grid, grids.Masked) and name != "sum"):
         raise Untranslatable(f"{name} of an array at run time: it has no counterpart in C so far")
     return found(unit, grid, *operands, **named)
 

@@ -11,8 +11,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from . import code
-from . import values
+from . import code, values
+from .library import chosen
 from .values import ADD, Num, Untranslatable, array_kind, is_number, kind_of, literal, parts, rebuilt
 
 LARGE = 64  # elements, above which what is computed with an array is a loop
@@ -124,6 +124,10 @@ class Derived(Grid):
         return self.element(places)
 
 
+class Masked(Derived):
+    """Elements that a mask picks: their number is not known, but their sum is; the others are 0."""
+
+
 class Writer:
     """What arrays ask of a C function under construction; `units.Unit` is one."""
 
@@ -222,14 +226,27 @@ def stored(unit: Writer, value: Any, name: str = "values") -> Stored:
     return found
 
 
-def settled(unit: Writer, value: Any, name: str = "values") -> Any:
-    """Return a value whose arrays all lie in C."""
+def is_array(number: Any) -> bool:
+    """Return True for an array, or the number that stands for one in C."""
+    return isinstance(number, Grid) or "[" in number.kind
+
+
+def give(unit: Writer, out: str, array: Num | Grid) -> None:
+    """Set an array that a function returns."""
+    if isinstance(array, Grid):
+        fill(unit, Stored(array.shape, Num(out, array_kind(array.kind, array.size))), array)
+    else:
+        unit.emit(code.set_to(out, array.kind, array.text))
+
+
+def settled(unit: Writer, value: Any, name: str = "values", *, cheap: bool = True) -> Any:
+    """Return a value whose arrays all lie in C; `cheap`: also those of a few operations."""
     if isinstance(value, Grid):
-        return stored(unit, value, name)
+        return stored(unit, value, name) if cheap or getattr(value, "costs", False) else value
     if not _is_lazy(value):
         return value
     found = [(part, item) for part, item in parts(value) or ()]
-    return rebuilt(value, [settled(unit, item, f"{name}_{part}" if part else name) for part, item in found])
+    return rebuilt(value, [settled(unit, item, f"{name}_{part}" if part else name, cheap=cheap) for part, item in found])
 
 
 def _is_lazy(value: Any) -> bool:
@@ -350,6 +367,8 @@ def transposed(grid: Grid) -> Grid:
 
 def picked(grid: Grid, key: Any, unit: Writer | None = None) -> Any:
     """Return an element or a part of an array."""
+    if _is_mask(key):
+        return _masked(grid, key, unit)
     keys = _whole_key(key, grid.ndim)
     if len(keys) == grid.ndim and all(is_number(k) for k in keys):
         return grid.at(tuple(_inside(k, n) for k, n in zip(keys, grid.shape, strict=True)))
@@ -357,6 +376,21 @@ def picked(grid: Grid, key: Any, unit: Writer | None = None) -> Any:
     if isinstance(grid, Stored) and all(isinstance(k, slice) and k == slice(None) for k in keys[len(numbers) :]):
         return _row(grid, [_inside(k, n) for k, n in zip(numbers, grid.shape, strict=False)])
     return _part(grid, keys, unit)
+
+
+
+
+def _is_mask(key: Any) -> bool:
+    if isinstance(key, np.ndarray) and key.dtype == object:
+        return key.size > 0 and all(kind_of(x) == "b" for x in key.flat)
+    return isinstance(key, Grid) and key.kind == "b"
+
+
+def _masked(grid: Grid, mask: Any, unit: Writer | None) -> Masked:
+    if unit is None:
+        raise Untranslatable("a part of an array by a mask, in a loop over it")
+    found = elementwise(unit, lambda test, x: chosen(test, x, 0.0), [mask, grid], costs=False)
+    return Masked(found.shape, grid.kind, found.element, costs=found.costs)
 
 
 def _row(grid: Stored, numbers: list[Any]) -> Stored:

@@ -281,7 +281,9 @@ def matched(value: Any, template: Any) -> list[Num]:
     if not is_dynamic(template):
         return []
     if isinstance(template, grids.Stored):
-        return [grids.table(value).data if isinstance(value, np.ndarray) else value.data]
+        if isinstance(value, np.ndarray):
+            return [grids.table(value).data]
+        return [value.data if isinstance(value, grids.Stored) else value]
     if isinstance(value, np.ndarray):
         value = value.astype(object)
     given = dict(parts(value) or ())
