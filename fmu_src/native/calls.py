@@ -56,7 +56,11 @@ def calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple
         for name in given
         if name not in ("out", "state") and f"{name}->" not in body and name not in re.findall(r"\w+", body)
     ]
-    if not any(target.startswith("state") for target, _ in [*sets, *arrays]) and "state->" not in body and "state" in given:
+    if (
+        not any(target.startswith("state") for target, _ in [*sets, *arrays])
+        and "state->" not in body
+        and "state" in given
+    ):
         unread.append("state")
     return [
         f"int {head}",
@@ -88,15 +92,15 @@ def stack_of(texts: Sequence[str]) -> int:
 
 def source(texts: Sequence[str]) -> str:
     """Return a C file of functions."""
-    needs = {"refuse(": REFUSE, "whole(": WHOLE}
-    found = [text for name, text in needs.items() if any(name in each for each in texts)]
-    also = [f"#include <{header}>" for name, header in {"mem": "string.h"}.items() if _calls(name, texts)]
-    own = ['#include "normal.h"'] if _calls("own_normal", texts) else []
+    needs = {"refuse": REFUSE, "whole": WHOLE, "inside": INSIDE}
+    found = [text for name, text in needs.items() if _calls(name, texts)]
+    also = ["#include <string.h>"] if _calls("mem(cpy|set)", texts) else []
+    own = ['#include "normal.h"'] if _calls("own_normal_score", texts) else []
     return "\n\n".join(["\n".join([INCLUDES, *also, *own]), *found, *texts]) + "\n"
 
 
 def _calls(name: str, texts: Sequence[str]) -> bool:
-    return any(re.search(rf"\b{name}\w*\(", text) for text in texts)
+    return any(re.search(rf"\b{name}\(", text) for text in texts)
 
 
 def struct(name: str, members: Sequence[str], about: dict[str, Variable]) -> list[str]:
@@ -176,6 +180,14 @@ WHOLE = """\
 static inline int whole(double x)
 {
     return x != x ? 0 : x >= 2147483647.0 ? 2147483647 : x <= -2147483647.0 ? -2147483647 : (int)x;
+}"""
+
+INSIDE = """\
+/* The place in an array of a size that is nearest to one; negative ones count from its end. */
+static inline int inside(int place, int size)
+{
+    const int from_start = place < 0 ? place + size : place;
+    return from_start < 0 ? 0 : from_start >= size ? size - 1 : from_start;
 }"""
 
 HEAD = f"{INCLUDES}\n\n{REFUSE}"

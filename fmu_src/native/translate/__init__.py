@@ -8,7 +8,10 @@
     expressions   expressions of Python
     loops         loops that stay loops
     results       what C functions return
+    constants     known arrays as tables
     grids         arrays at run time: elements, views, loops over them
+    grid_parts    parts of them: by numbers, slices, places and masks
+    grid_sums     sums, extremes and their places
     grid_library  what functions and methods of numpy are for them
     arrays        what a law gives for each element of an array
     interpreter   statements of Python
@@ -25,8 +28,8 @@ from .values import Num, Untranslatable, array_kind, is_number, leaves, literal,
 __all__ = [
     "Entry",
     "Num",
-    "Translator",
     "Stored",
+    "Translator",
     "Untranslatable",
     "array_kind",
     "c_type",

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from . import code, grid_library, grids
+from . import code, grid_library, grid_parts, grids
 from .grids import Derived, Grid, Stored, View
 from .library import ALWAYS, ARRAY_METHODS, HANDLERS, chosen, elementwise
 from .sources import is_compiled, names_set
@@ -85,7 +85,7 @@ class Expressions:
             owner, key = target.value.id, self.value(target.slice)
             self.names[owner] = {**self.lookup(owner), key: self.unit.named(str(key), value)}
         elif isinstance(target, ast.Subscript) and isinstance(owner := self.value(target.value), Stored | View):
-            grids.put(self.unit, owner, self.value(target.slice), value)
+            grid_parts.put(self.unit, owner, self.value(target.slice), value)
         else:
             raise Untranslatable(f"an assignment to {ast.unparse(target)}: bind a name instead")
 
@@ -188,11 +188,11 @@ class Expressions:
     def picked(self, owner: Any, key: Any) -> Any:
         """Return a part of an array or a sequence, or an entry."""
         if isinstance(owner, Grid):
-            return grids.picked(owner, key, self.unit)
+            return grid_parts.picked(self.unit, owner, key)
         if not is_dynamic(key):
             return owner[key]
         if isinstance(owner, np.ndarray) or (isinstance(owner, tuple | list) and all(map(is_number, owner))):
-            return grids.picked(grids.of(self.unit, owner), key, self.unit)
+            return grid_parts.picked(self.unit, grids.of(self.unit, owner), key)
         raise Untranslatable(f"a place of a {type(owner).__name__} that is known at run time only")
 
     def _of_Slice(self, node: ast.Slice) -> Any:

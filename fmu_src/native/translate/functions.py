@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from . import code, grid_library, grids
+from . import code, constants, grid_library, grids
 from .arrays import arrays_in, on_arrays
 from .expressions import Super
-from .interpreter import Scope
 from .grids import is_array
+from .interpreter import Scope
 from .results import (
     distinct,
     fields_of,
@@ -125,7 +125,7 @@ class Translator:
             if name in needed:
                 needed |= code.names_in(_COMMENT.sub("", text))
                 kept.append((name, text))
-        return grids.with_tables(code.merged(kept[::-1]))
+        return constants.with_tables(code.merged(kept[::-1]))
 
     def wanted(self, texts: Sequence[str], entries: Sequence["Entry"]) -> dict[Any, set[str]]:
         """Return the members that anything reads of the structs of functions, by what these are; of entries all."""
@@ -196,7 +196,8 @@ class Translator:
             if not is_dynamic(operands) and not is_dynamic(named):
                 return function(*operands, **named)
             closure = closure_of(function)
-            if any(map(is_dynamic, arrays_in([*operands, *named.values()]))) and _is_elementwise(function):
+            of_arrays = any(map(is_dynamic, arrays_in([*operands, *named.values()])))
+            if of_arrays and _is_elementwise(function) and not is_compiled(closure.node):
                 return self._on_arrays(unit, function, operands, named)
         bound = self._bound(closure, function, operands, named)
         expression = None if is_compiled(closure.node) else expression_of(closure.node)
@@ -360,6 +361,7 @@ class Translator:
         """Return a function of which the statements are written."""
         unit = Unit(name, template, part_names(closure.node), scratch=template is None)
         unit.names |= self._names
+        unit.compiled = is_compiled(closure.node)
         self._units.append(unit)
         made: list[Num] = [] if parameters is None else parameters
         names = iter([leaf for leaf, _ in leaves((bound, closure))])

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from . import grids
+from . import grid_parts, grid_sums, grids
 from .grids import Derived, Grid, Stored, Writer, elementwise
 from .library import HANDLERS, chosen, maximum, minimum
 from .loops import Span
@@ -23,7 +23,11 @@ def takes(operands: Any, function: Any = None) -> bool:
     if any(isinstance(x, Grid) for x in operands):
         return True
     arrays = [x for x in operands if isinstance(x, np.ndarray)]
-    if function is operator.matmul or not arrays or not all(is_number(x) or isinstance(x, np.ndarray) for x in operands):
+    if (
+        function is operator.matmul
+        or not arrays
+        or not all(is_number(x) or isinstance(x, np.ndarray) for x in operands)
+    ):
         return False
     shape = np.broadcast_shapes(*(x.shape for x in arrays))
     return math.prod(shape) > grids.LARGE and is_dynamic(list(operands))
@@ -73,9 +77,9 @@ def called(unit: Writer, function: Any, operands: list[Any], named: dict[str, An
         return _FUNCTIONS[function](unit, *operands, **named)
     given = [*operands, *named.values()]
     flat = [y for x in given for y in (x if isinstance(x, list | tuple) else [x])]
-    if not function.__hash__ or not any(isinstance(x, Grid) for x in flat):
-        if not (isinstance(function, np.ufunc) and takes(operands)):
-            return NotImplemented
+    many = isinstance(function, np.ufunc) and takes(operands)
+    if not function.__hash__ or not (many or any(isinstance(x, Grid) for x in flat)):
+        return NotImplemented
     if function in _FUNCTIONS:
         return _FUNCTIONS[function](unit, *operands, **named)
     if function in _BY_ELEMENT or isinstance(function, np.ufunc):
@@ -97,14 +101,14 @@ def _product(unit: Writer, one: Grid, other: Grid) -> Any:
     elif one.ndim == 1:
         found = elementwise(unit, operator.mul, [one, grids.transposed(other)], costs=False)
     else:
-        rows = grids.picked(one, (Ellipsis, slice(None), None, slice(None)), unit)
+        rows = grid_parts.picked(unit, one, (Ellipsis, slice(None), None, slice(None)))
         found = elementwise(unit, operator.mul, [rows, grids.transposed(other)], costs=False)
     return _sum(unit, found, -1)
 
 
 def _sum(unit: Writer, grid: Grid, axis: Any = None, dtype: Any = None) -> Any:
     start = Num("0.0") if grid.kind == "d" else Num("0", "i")
-    return grids.reduced(unit, "total", grid, axis, start, lambda total, x: total + x)
+    return grid_sums.reduced(unit, "total", grid, axis, start, lambda total, x: total + x)
 
 
 def _mean(unit: Writer, grid: Grid, axis: Any = None) -> Any:
@@ -115,25 +119,23 @@ def _mean(unit: Writer, grid: Grid, axis: Any = None) -> Any:
 
 
 def _extreme(pair: Callable[..., Any], beyond: float) -> Callable[..., Any]:
-    def found(
-        unit: Writer, grid: Grid, axis: Any = None, where: Any = None, initial: float | None = None
-    ) -> Any:
+    def found(unit: Writer, grid: Grid, axis: Any = None, where: Any = None, initial: float | None = None) -> Any:
         if where is not None:
             grid = elementwise(unit, chosen, [where, grid, initial], costs=False)
         start = Num("-INFINITY" if beyond < 0.0 else "INFINITY") if initial is None else Num(repr(initial))
         if grid.kind != "d":
             start = Num(str(int(math.copysign(2**31 - 1, beyond))), "i")
-        return grids.reduced(unit, "extreme", grid, axis, start, pair)
+        return grid_sums.reduced(unit, "extreme", grid, axis, start, pair)
 
     return found
 
 
 def _any(unit: Writer, grid: Grid, axis: Any = None) -> Any:
-    return grids.reduced(unit, "some", grid, axis, Num("0", "b"), either)
+    return grid_sums.reduced(unit, "some", grid, axis, Num("0", "b"), either)
 
 
 def _all(unit: Writer, grid: Grid, axis: Any = None) -> Any:
-    return grids.reduced(unit, "every", grid, axis, Num("1", "b"), both)
+    return grid_sums.reduced(unit, "every", grid, axis, Num("1", "b"), both)
 
 
 def _tolist(unit: Writer, grid: Grid) -> Any:
@@ -153,7 +155,7 @@ def _stacked(unit: Writer, items: Any, *_: Any, axis: int = 0) -> Grid:
     kind = "d" if any(row.kind == "d" for row in rows) else "i"
     found = grids.new(unit, "stacked", (len(rows), *rows[0].shape), kind)
     for k, row in enumerate(rows):
-        grids.put(unit, found, k, row)
+        grid_parts.put(unit, found, k, row)
     return found
 
 
@@ -163,7 +165,7 @@ def _joined(unit: Writer, *items: Any) -> Stored:
     kind = "d" if any(part.kind == "d" for part in parts) else "i"
     found, at = grids.new(unit, "joined", (sum(part.size for part in parts),), kind), 0
     for part in parts:
-        grids.put(unit, found, slice(at, at + part.size), part)
+        grid_parts.put(unit, found, slice(at, at + part.size), part)
         at += part.size
     return found
 
@@ -205,16 +207,13 @@ def _full(unit: Writer, shape: Any, value: Any) -> Grid:
 def _divide(unit: Writer, one: Any, other: Any, out: Any = None, where: Any = None) -> Grid:
     if where is None:
         return elementwise(unit, operator.truediv, [one, other], costs=False)
-    divided = elementwise(unit, lambda test, x, y, rest: chosen(test, x / y, rest), [where, one, other, out], costs=False)
-    return divided
+    return elementwise(unit, lambda test, x, y, rest: chosen(test, x / y, rest), [where, one, other, out], costs=False)
 
 
 def _along_axis(unit: Writer, grid: Grid, places: Grid, axis: int) -> Grid:
     own = grids.stored(unit, grid)
     at = grids.broadcast(unit, grids.stored(unit, places, "places"), _but(own.shape, axis, places.shape[axis]))
-    return Derived(
-        at.shape, own.kind, lambda p: own.at((*p[:axis], at.at(p), *p[axis + 1 :])), costs=False
-    )
+    return Derived(at.shape, own.kind, lambda p: own.at((*p[:axis], at.at(p), *p[axis + 1 :])), costs=False)
 
 
 def _but(shape: tuple[int, ...], axis: int, size: int) -> tuple[int, ...]:
@@ -247,8 +246,8 @@ _METHODS: dict[str, Callable[..., Any]] = {
     "min": _smallest,
     "any": _any,
     "all": _all,
-    "argmax": lambda unit, grid, axis=None: grids.extreme_place(unit, grid, axis, ">"),
-    "argmin": lambda unit, grid, axis=None: grids.extreme_place(unit, grid, axis, "<"),
+    "argmax": lambda unit, grid, axis=None: grid_sums.extreme_place(unit, grid, axis, ">"),
+    "argmin": lambda unit, grid, axis=None: grid_sums.extreme_place(unit, grid, axis, "<"),
     "tolist": _tolist,
     "reshape": _reshape,
     "ravel": _flat,
@@ -289,5 +288,9 @@ _BY_ELEMENT: dict[Any, Callable[..., Any]] = {
     np.sign: _sign,
     np.minimum: minimum,
     np.maximum: maximum,
-    **{function: each for function, each in HANDLERS.items() if getattr(function, "__module__", "").endswith("elementary")},
+    **{
+        function: each
+        for function, each in HANDLERS.items()
+        if getattr(function, "__module__", "").endswith("elementary")
+    },
 }

@@ -4,15 +4,13 @@
 Names, parameters and results are stored ones.
 """
 
-import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
-from . import code, values
-from .library import chosen
+from . import code, constants, values
 from .values import ADD, Num, Untranslatable, array_kind, is_number, kind_of, literal, parts, rebuilt
 
 LARGE = 64  # elements, above which what is computed with an array is a loop
@@ -44,6 +42,10 @@ class Grid(values.Grid):
         """Return an element."""
         raise NotImplementedError
 
+    def row(self, k: int) -> "Grid":
+        """Return the part at the first place k."""
+        raise NotImplementedError
+
     def setflags(self, *, write: bool) -> None:
         """Mark as read-only: C arrays are constant where nothing sets them."""
 
@@ -51,7 +53,7 @@ class Grid(values.Grid):
         return self.shape[0]
 
     def __iter__(self) -> Iterator[Any]:
-        return (picked(self, k) for k in range(self.shape[0]))
+        return (self.at((k,)) if self.ndim == 1 else self.row(k) for k in range(self.shape[0]))
 
     def __bool__(self) -> bool:
         raise Untranslatable("an array at run time decides here: write any or all")
@@ -88,6 +90,10 @@ class Stored(Grid):
         base, place = self.place(places)
         return Num(f"{base}[{place}]", self.kind)
 
+    def row(self, k: int) -> Grid:
+        """Return the part at the first place k."""
+        return row_of(self, [k])
+
     def place(self, places: Places) -> tuple[str, str]:
         """Return the name of the array, and the place of an element in it."""
         flat = _flat(places, self.shape)
@@ -111,6 +117,10 @@ class View(Grid):
         """Return the name of the array, and the place of an element in it."""
         return self.base.place(self.to(places))
 
+    def row(self, k: int) -> Grid:
+        """Return the part at the first place k."""
+        return View(self.shape[1:], self.base, lambda places: self.to((k, *places)))
+
 
 class Derived(Grid):
     """What `element` gives for each place; `costs`: more than a few operations."""
@@ -128,20 +138,27 @@ class Masked(Derived):
     """Elements that a mask picks: their number is not known, but their sum is; the others are 0."""
 
 
-class Writer:
+class Writer(Protocol):
     """What arrays ask of a C function under construction; `units.Unit` is one."""
 
     def emit(self, statement: code.Statement) -> None:
         """Add a statement."""
 
-    def fresh(self, name: str) -> str:  # type: ignore[empty-body]
+    def fresh(self, name: str) -> str:
         """Return a new name."""
 
-    def variable(self, name: str, kind: str) -> Num:  # type: ignore[empty-body]
+    def variable(self, name: str, kind: str) -> Num:
         """Return a variable that is set later."""
 
-    def branch(self, work: Callable[[], Any]) -> tuple[Any, code.Block]:  # type: ignore[empty-body]
+    def branch(self, work: Callable[[], Any]) -> tuple[Any, code.Block]:
         """Return what some work gives, and the statements that it makes."""
+
+    def counts(self, index: str) -> None:
+        """Take note that a name counts the rounds of a loop over an array."""
+
+    def trusts(self, place: str) -> bool:
+        """Return True for a place that is in every array it is used for."""
+        ...
 
     def writes(self, name: str) -> None:
         """Take note that an array is written."""
@@ -156,36 +173,7 @@ def _flat(places: Places, shape: Shape) -> Any:
 
 def table(array: np.ndarray) -> Stored:
     """Return a known array as one in C."""
-    whole = array.dtype.kind in "iub"
-    key = (whole, array.size, np.ascontiguousarray(array, np.int64 if whole else np.float64).tobytes())
-    number = _TABLES.setdefault(key, len(_TABLES))
-    return Stored(array.shape, Num(f"{_TABLE}{number}", array_kind("i" if whole else "d", array.size)))
-
-
-_TABLES: dict[tuple[bool, int, bytes], int] = {}  # of all programs, in order
-_TABLE = "known_table_"
-_NAME = "constants"
-
-
-def with_tables(texts: Sequence[str]) -> list[str]:
-    """Return C functions after the tables that they read."""
-    import re
-
-    numbers = list(dict.fromkeys(re.findall(rf"\b{_TABLE}(\d+)\b", "\n".join(texts))))
-    if not numbers:
-        return list(texts)
-    keys = list(_TABLES)
-    names = {number: f"{_NAME}_{place}" for place, number in enumerate(numbers, 1)}
-    tables = [_written(names[number], *keys[int(number)]) for number in numbers]
-    return [*tables, *(re.sub(rf"\b{_TABLE}(\d+)\b", lambda found: names[found[1]], text) for text in texts)]
-
-
-def _written(name: str, whole: bool, size: int, content: bytes) -> str:
-    values = np.frombuffer(content, np.int64 if whole else np.float64)
-    kind = "i" if whole else "d"
-    listed = values.tolist() if values.any() or np.signbit(values.astype(float)).any() else [values[0].item()]
-    items = ", ".join(literal(value, kind).text for value in listed)
-    return "\n".join(code.wrapped(f"static const {code.c_type(kind)} {name}[{size}] = {{ {items} }};", 0))
+    return Stored(array.shape, constants.named(array))
 
 
 def of(unit: Writer, value: Any, name: str = "values") -> Grid:
@@ -246,7 +234,9 @@ def settled(unit: Writer, value: Any, name: str = "values", *, cheap: bool = Tru
     if not _is_lazy(value):
         return value
     found = [(part, item) for part, item in parts(value) or ()]
-    return rebuilt(value, [settled(unit, item, f"{name}_{part}" if part else name, cheap=cheap) for part, item in found])
+    return rebuilt(
+        value, [settled(unit, item, f"{name}_{part}" if part else name, cheap=cheap) for part, item in found]
+    )
 
 
 def _is_lazy(value: Any) -> bool:
@@ -260,12 +250,11 @@ def _is_lazy(value: Any) -> bool:
 def both_stored(one: Any, other: Any) -> tuple[Any, Any]:
     """Return known arrays as arrays in C where one of the two is that, or where they are large."""
     pair = one, other
-    if any(isinstance(x, Stored) for x in pair) or all(isinstance(x, np.ndarray) and x.size > LARGE for x in pair):
-        if all(isinstance(x, Stored) or (isinstance(x, np.ndarray) and x.dtype != object) for x in pair):
-            made = tuple(table(x) if isinstance(x, np.ndarray) else x for x in pair)
-            if made[0].shape == made[1].shape:
-                return made[0], made[1]
-    return pair
+    wanted = any(isinstance(x, Stored) for x in pair) or all(isinstance(x, np.ndarray) and x.size > LARGE for x in pair)
+    possible = all(isinstance(x, Stored) or (isinstance(x, np.ndarray) and x.dtype != object) for x in pair)
+    if not (wanted and possible and one.shape == other.shape):
+        return pair
+    return tuple(table(x) if isinstance(x, np.ndarray) else x for x in pair)  # type: ignore[return-value]
 
 
 def copied(unit: Writer, value: Any, name: str) -> Stored:
@@ -301,6 +290,7 @@ def looped(unit: Writer, shape: Shape, axes: Iterable[int], places: Places, work
         return
     axis, *rest = left
     index = unit.fresh("ijklmn"[axis] if axis < 6 else "i")
+    unit.counts(index)
     inner = (*places[:axis], Num(index, "i"), *places[axis + 1 :])
     _, body = unit.branch(lambda: looped(unit, shape, rest, inner, work))
     unit.emit(code.Loop(f"for (int {index} = 0; {index} < {shape[axis]}; ++{index})", body))
@@ -320,7 +310,6 @@ def elementwise(unit: Writer, function: Callable[..., Any], operands: Sequence[A
         return function(*(x.at(aligned(x.shape, places)) if isinstance(x, Grid) else x for x in grids))
 
     first = (Num("x", x.kind) if isinstance(x, Grid) else x for x in grids)
-    _, kind = unit.branch(lambda: None), "d"
     if not costs:
         kind = kind_of(function(*first))
     else:
@@ -362,182 +351,16 @@ def transposed(grid: Grid) -> Grid:
     return Derived(shape, grid.kind, lambda places: grid.at(places[::-1]), costs=getattr(grid, "costs", False))
 
 
-# parts
+def base_of(array: Num) -> str:
+    """Return the name of the C array that an array lies in."""
+    return array.base if isinstance(array, Pointer) else array.text
 
 
-def picked(grid: Grid, key: Any, unit: Writer | None = None) -> Any:
-    """Return an element or a part of an array."""
-    if _is_mask(key):
-        return _masked(grid, key, unit)
-    keys = _whole_key(key, grid.ndim)
-    if len(keys) == grid.ndim and all(is_number(k) for k in keys):
-        return grid.at(tuple(_inside(k, n) for k, n in zip(keys, grid.shape, strict=True)))
-    numbers = list(itertools.takewhile(is_number, keys))
-    if isinstance(grid, Stored) and all(isinstance(k, slice) and k == slice(None) for k in keys[len(numbers) :]):
-        return _row(grid, [_inside(k, n) for k, n in zip(numbers, grid.shape, strict=False)])
-    return _part(grid, keys, unit)
-
-
-
-
-def _is_mask(key: Any) -> bool:
-    if isinstance(key, np.ndarray) and key.dtype == object:
-        return key.size > 0 and all(kind_of(x) == "b" for x in key.flat)
-    return isinstance(key, Grid) and key.kind == "b"
-
-
-def _masked(grid: Grid, mask: Any, unit: Writer | None) -> Masked:
-    if unit is None:
-        raise Untranslatable("a part of an array by a mask, in a loop over it")
-    found = elementwise(unit, lambda test, x: chosen(test, x, 0.0), [mask, grid], costs=False)
-    return Masked(found.shape, grid.kind, found.element, costs=found.costs)
-
-
-def _row(grid: Stored, numbers: list[Any]) -> Stored:
+def row_of(grid: Stored, numbers: list[Any]) -> Stored:
+    """Return a part by the first places, which lies in one piece."""
     rest = grid.shape[len(numbers) :]
     offset = _flat((*numbers, *(0 for _ in rest)), grid.shape)
     if isinstance(offset, int) and offset == 0 and not isinstance(grid.data, Pointer):
         return Stored(rest, Num(grid.data.text, array_kind(grid.kind, math.prod(rest))))
     base, before = (grid.data.base, grid.data.offset) if isinstance(grid.data, Pointer) else (grid.data.text, 0)
     return Stored(rest, Pointer(base, before + offset, array_kind(grid.kind, math.prod(rest))))
-
-
-def _whole_key(key: Any, ndim: int) -> list[Any]:
-    keys = list(key) if isinstance(key, tuple) else [key]
-    own = sum(1 for k in keys if k is not None and k is not Ellipsis)
-    full = [slice(None)] * (ndim - own)
-    at = next((i for i, k in enumerate(keys) if k is Ellipsis), None)
-    return [*keys, *full] if at is None else [*keys[:at], *full, *keys[at + 1 :]]
-
-
-def _inside(place: Any, size: int) -> Any:
-    return place if isinstance(place, Num) or place >= 0 else place + size
-
-
-def _part(grid: Grid, keys: list[Any], unit: Writer | None) -> Grid:
-    """Return a part by numbers, slices, new axes and arrays of places (these side by side)."""
-    arrays = [k for k in keys if isinstance(k, Grid | np.ndarray | list)]
-    if (arrays or isinstance(grid, Derived)) and unit is None:
-        raise Untranslatable("a part of an array by an array, in a loop over it")
-    among = np.broadcast_shapes(*(k.shape if isinstance(k, Grid) else np.shape(k) for k in arrays)) if arrays else ()
-    steps: list[Callable[[Places], Any]] = []  # from places in the part to one along each axis
-    shape: list[int] = []
-    at: int | None = None
-    axis = 0
-    for k in keys:
-        if k is None:
-            shape.append(1)
-            continue
-        size, axis = grid.shape[axis], axis + 1
-        if is_number(k):
-            steps.append(lambda _, k=_inside(k, size): k)
-        elif isinstance(k, slice):
-            span = range(*k.indices(size))
-            steps.append(lambda p, i=len(shape), s=span: s.start + p[i] * s.step if s.start else p[i] * s.step)
-            shape.append(len(span))
-        else:
-            if at is None:
-                at = len(shape)
-                shape.extend(among)
-            chosen = stored(unit, k, "places")  # type: ignore[arg-type]
-            steps.append(lambda p, i=at, c=chosen: c.at(aligned(c.shape, p[i : i + len(among)])))
-
-    def to(places: Places) -> Places:
-        return tuple(step(places) for step in steps)
-
-    base = stored(unit, grid) if isinstance(grid, Derived) else grid  # type: ignore[arg-type]
-    if isinstance(base, View):
-        own = base
-        return View(tuple(shape), own.base, lambda places: own.to(to(places)))
-    assert isinstance(base, Stored)
-    return View(tuple(shape), base, to)
-
-
-def put(unit: Writer, grid: Stored | View, key: Any, value: Any) -> None:
-    """Set an element or a part of an array."""
-    keys = _whole_key(key, grid.ndim)
-    if len(keys) == grid.ndim and all(is_number(k) for k in keys):
-        name, place = grid.place(tuple(_inside(k, n) for k, n in zip(keys, grid.shape, strict=True)))
-        unit.writes(name)
-        unit.emit(code.Put(name, literal(value, grid.kind).text, place))
-        return
-    part = picked(grid, key, unit)
-    if not is_number(value):
-        value = broadcast(unit, stored(unit, value), part.shape)
-    fill(unit, part, value)
-
-
-# sums and the like
-
-
-def reduced(unit: Writer, name: str, grid: Grid, axis: Any, start: Num, more: Callable[[Num, Any], Any]) -> Any:
-    """Return what elements come to along one axis, several, or all (None); `more` adds one to what there is."""
-    axes = tuple(range(grid.ndim)) if axis is None else (axis,) if isinstance(axis, int) else tuple(axis)
-    axes = tuple(a % grid.ndim for a in axes)
-    if isinstance(grid, Derived):
-        _, _ = grid.shape, grid.kind
-
-    def along(places: Places) -> Num:
-        found = unit.variable(name, start.kind)
-        unit.emit(code.Put(found.text, start.text))
-
-        def add(inner: Places) -> None:
-            unit.emit(code.Put(found.text, literal(more(found, grid.at(inner)), start.kind).text))
-
-        looped(unit, grid.shape, axes, places, add)
-        return found
-
-    kept = [a for a in range(grid.ndim) if a not in axes]
-    if not kept:
-        return along((0,) * grid.ndim)
-    found = new(unit, name, tuple(grid.shape[a] for a in kept), start.kind)
-
-    def each_of(places: Places) -> None:
-        total = along(places)
-        own, place = found.place(tuple(places[a] for a in kept))
-        unit.writes(own)
-        unit.emit(code.Put(own, total.text, place))
-
-    looped(unit, grid.shape, kept, (0,) * grid.ndim, each_of)
-    return found
-
-
-def extreme_place(unit: Writer, grid: Grid, axis: int | None, sign: str) -> Any:
-    """Return the first place of the largest (sign >) or smallest (<) element."""
-    base = stored(unit, grid)
-    if axis is None:
-        base = Stored((base.size,), base.data)
-    axis = 0 if axis is None else axis % base.ndim
-
-    def along(places: Places) -> Num:
-        found = unit.variable("place", "i")
-        unit.emit(code.Put(found.text, "0"))
-
-        def look(inner: Places) -> None:
-            best = base.at((*inner[:axis], found, *inner[axis + 1 :]))
-            test = f"{base.at(inner).text} {sign} {best.text}"
-            place = inner[axis]
-            unit.emit(code.If(test, [code.Put(found.text, literal(place, "i").text)], []))
-
-        looped(unit, base.shape, [axis], places, look)
-        return found
-
-    kept = [a for a in range(base.ndim) if a != axis]
-    if not kept:
-        return along((0,))
-    found = new(unit, "places", tuple(base.shape[a] for a in kept), "i")
-
-    def each_of(places: Places) -> None:
-        best = along(places)
-        own, place = found.place(tuple(places[a] for a in kept))
-        unit.writes(own)
-        unit.emit(code.Put(own, best.text, place))
-
-    looped(unit, base.shape, kept, (0,) * base.ndim, each_of)
-    return found
-
-
-
-def base_of(array: Num) -> str:
-    """Return the name of the C array that an array lies in."""
-    return array.base if isinstance(array, Pointer) else array.text

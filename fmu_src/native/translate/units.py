@@ -38,7 +38,7 @@ _TAKEN = KEYWORDS.union(  # and what headers of C and elementary.h have
     re.findall(
         r"\w+",
         "why exp log pow sqrt fabs floor ceil round gamma time index j0 j1 y0 y1 jn yn tanh sinh remainder signal "
-        "squared smaller larger centre from_bits bits_of exp_parts exp_of log_of power_of_two refuse",
+        "squared smaller larger centre from_bits bits_of exp_parts exp_of log_of power_of_two refuse whole inside memcpy memset ratio_of",
     )
 )
 
@@ -72,6 +72,8 @@ class Unit:
         self._known: list[dict[str, str]] = [{}]  # expressions that have a name, for each block
         self.arrays: set[str] = set()  # their names: what is read of them may change
         self.written: set[str] = set()  # arrays that are set
+        self.compiled = False  # its Python is compiled: what it reads of arrays is in them
+        self._indices: set[str] = set()  # names that count rounds of loops
         self.outs: list[str] = []  # names of the parameters that take arrays it returns
 
     def emit(self, statement: code.Statement) -> None:
@@ -109,6 +111,14 @@ class Unit:
     def may_change(self, text: str) -> bool:
         """Return True if an expression reads an array."""
         return "[" in text or bool(self.arrays and code.names_in(text) & self.arrays)
+
+    def counts(self, index: str) -> None:
+        """Take note that a name counts the rounds of a loop."""
+        self._indices.add(index)
+
+    def trusts(self, place: str) -> bool:
+        """Return True for a place that is in every array it is used for."""
+        return self.compiled or place in self._indices
 
     def writes(self, name: str) -> None:
         """Take note that an array is written."""

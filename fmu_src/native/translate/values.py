@@ -128,6 +128,8 @@ class Num:
 class Grid:
     """An array at run time, see `grids`."""
 
+    shape: tuple[int, ...]
+
     def members(self) -> list[tuple[str, Any]]:
         """Return the C arrays that it consists of; see `parts`."""
         return []
@@ -389,7 +391,7 @@ def signature(value: Any) -> Any:
         own = (
             (id(value.node),) if isinstance(value, Closure) else (value.function,) if isinstance(value, Method) else ()
         )
-        shape = value.shape if isinstance(value, np.ndarray | Grid) else ()  # type: ignore[attr-defined]
+        shape = value.shape if isinstance(value, np.ndarray | Grid) else ()
         return type(value), own, shape, tuple((name, signature(item)) for name, item in parts(value) or ())
     if isinstance(value, Closure):
         return id(value.node), tuple((name, signature(item)) for name, item in value.names.items())
