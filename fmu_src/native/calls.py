@@ -92,7 +92,7 @@ def stack_of(texts: Sequence[str]) -> int:
 
 def source(texts: Sequence[str]) -> str:
     """Return a C file of functions."""
-    needs = {"refuse": REFUSE, "whole": WHOLE, "inside": INSIDE}
+    needs = {"refuse": REFUSE, "whole_number": WHOLE, "place_inside": INSIDE}
     found = [text for name, text in needs.items() if _calls(name, texts)]
     also = ["#include <string.h>"] if _calls("mem(cpy|set)", texts) else []
     own = ['#include "normal.h"'] if _calls("own_normal_score", texts) else []
@@ -177,14 +177,14 @@ static void refuse(contact_message *why, const char *format, ...)
 
 WHOLE = """\
 /* The whole number towards zero from a number; what no int can be is the nearest one, and no number 0. */
-static inline int whole(double x)
+static inline int whole_number(double x)
 {
     return x != x ? 0 : x >= 2147483647.0 ? 2147483647 : x <= -2147483647.0 ? -2147483647 : (int)x;
 }"""
 
 INSIDE = """\
 /* The place in an array of a size that is nearest to one; negative ones count from its end. */
-static inline int inside(int place, int size)
+static inline int place_inside(int place, int size)
 {
     const int from_start = place < 0 ? place + size : place;
     return from_start < 0 ? 0 : from_start >= size ? size - 1 : from_start;

@@ -48,7 +48,7 @@ def _inside(unit: Writer, place: Any, size: int) -> Any:
     """Return a place counted from the start; one that inputs decide is the nearest in the array, and none beside it."""
     if not isinstance(place, Num):
         return place if place >= 0 else place + size
-    return place if unit.trusts(place.text) else Num(f"inside({place.text}, {size})", "i")
+    return place if unit.trusts(place.text) else Num(f"place_inside({place.text}, {size})", "i")
 
 
 def _part(unit: Writer, grid: Grid, keys: list[Any]) -> Grid:

@@ -110,7 +110,7 @@ def _float(value: Any) -> Any:
 
 def _int(value: Any) -> Any:
     if isinstance(value, Num) and value.kind == "d":
-        return Num(f"whole({value.text})", "i")
+        return Num(f"whole_number({value.text})", "i")
     return value if isinstance(value, Num) else int(value)
 
 
