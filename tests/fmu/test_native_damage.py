@@ -15,8 +15,8 @@ WEAK = {
     "stress.layers": "6",
     "fatigue.set": "bearing_52100",
     "fatigue.single_strength": "500 MPa",
-    "wear.bare": "1e-4",
-    "wear.film": "1e-4",
+    "wear.bare": "3e-5",
+    "wear.film": "3e-5",
 }
 
 
