@@ -3,6 +3,7 @@
 `INSTEAD` names the functions that these stand for. They agree to rounding.
 """
 
+import inspect
 import math
 from collections.abc import Callable, Mapping, Sequence
 from itertools import product
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import linear, thermal
+from ..numerics.eigen import symmetric_eigen
 from .conduction import Modes
 from .part import State, Values
 from .thermal import Regimes, ThermalNetwork
@@ -222,4 +224,8 @@ def _crossing(
     return high, turn
 
 
-INSTEAD: Mapping[Any, Callable[..., Any]] = {linear.exponential: exponential, ThermalNetwork.advance: advance}
+INSTEAD: Mapping[Any, Callable[..., Any]] = {
+    linear.exponential: exponential,
+    ThermalNetwork.advance: advance,
+    inspect.unwrap(np.linalg.eigh): symmetric_eigen,
+}

@@ -15,7 +15,7 @@ import numpy as np
 from . import code, grid_library, grid_parts, grids
 from .grids import Derived, Grid, Stored, View
 from .library import ALWAYS, ARRAY_METHODS, HANDLERS, chosen, elementwise
-from .sources import is_compiled, names_set
+from .sources import is_compiled, names_set, takers
 from .units import Poison, Text, Unit, Writer
 from .values import Closure, Method, Num, Untranslatable, both, compare, either, is_dynamic, is_number, literal
 
@@ -101,7 +101,14 @@ class Expressions:
 
     def _sets(self, name: str, array: np.ndarray) -> bool:
         """Return True if a function may set elements of an array by this name."""
-        return array.ndim > 0 and (is_compiled(self.closure.node) or name in names_set(self.closure.node))
+        if array.ndim == 0:
+            return False
+        return is_compiled(self.closure.node) or name in names_set(self.closure.node) or self._is_handed_over(name)
+
+    def _is_handed_over(self, name: str) -> bool:
+        """Return True if a compiled function gets an array by this name: it may set elements."""
+        seen = self.closure.names | self.closure.module
+        return any(hasattr(seen.get(function), "py_func") for function in takers(self.closure.node, name))
 
     def _is_entry(self, target: ast.Subscript) -> bool:
         return isinstance(self.value(target.value), dict) and not is_dynamic(self.value(target.slice))

@@ -192,7 +192,7 @@ class Translator:
         if isinstance(function, Closure):
             closure = function
         else:
-            function = self._instead.get(function, function)
+            function = inspect.unwrap(self._instead.get(function, function))
             if not is_dynamic(operands) and not is_dynamic(named):
                 return function(*operands, **named)
             closure = closure_of(function)

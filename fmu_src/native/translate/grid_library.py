@@ -12,7 +12,7 @@ from . import grid_parts, grid_sums, grids
 from .grids import Derived, Grid, Stored, Writer, elementwise
 from .library import HANDLERS, chosen, maximum, minimum
 from .loops import Span
-from .values import Num, Untranslatable, both, compare, either, is_dynamic, is_number
+from .values import Num, Untranslatable, both, call, compare, either, is_dynamic, is_number
 
 _SIGNS = {operator.add, operator.sub, operator.mul, operator.truediv, operator.neg, operator.pos, operator.and_}
 _SIGNS |= {operator.or_, operator.floordiv, operator.mod}
@@ -220,6 +220,20 @@ def _but(shape: tuple[int, ...], axis: int, size: int) -> tuple[int, ...]:
     return (*shape[:axis], size, *shape[axis + 1 :])
 
 
+def _outer(unit: Writer, one: Any, other: Any) -> Grid:
+    rows = grid_parts.picked(unit, grids.of(unit, one), (slice(None), None))
+    return elementwise(unit, operator.mul, [rows, other], costs=False)
+
+
+def _tile(unit: Writer, grid: Grid, count: int) -> Grid:
+    base = grids.stored(unit, grid)
+    return Derived((count * base.size,), base.kind, lambda p: base.at((p[0] % base.size,)), costs=False)
+
+
+def _norm(unit: Writer, grid: Grid) -> Any:
+    return call("sqrt", _sum(unit, elementwise(unit, lambda x: x * x, [grids.stored(unit, grid)], costs=False)))
+
+
 def _sign(x: Any) -> Any:
     return compare(">", x, 0.0) - compare("<", x, 0.0)
 
@@ -269,6 +283,9 @@ _FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.asarray: _as_array,
     np.ascontiguousarray: _as_array,
     np.full: _full,
+    np.outer: _outer,
+    np.tile: _tile,
+    np.linalg.norm: _norm,
     np.append: _joined,
     np.concatenate: lambda unit, items: _joined(unit, *items),
     np.reshape: _reshape,

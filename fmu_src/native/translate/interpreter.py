@@ -4,6 +4,8 @@ import ast
 import importlib
 from typing import Any
 
+import numpy as np
+
 from . import code, grids
 from .expressions import Expressions
 from .grids import Stored, View
@@ -80,6 +82,8 @@ class Scope(Expressions):
     def _do_AugAssign(self, node: ast.AugAssign) -> bool:
         now = self.value(_loaded(node.target))
         after = self.operated(node.op, now, self.value(node.value))
+        if isinstance(now, np.ndarray) and is_compiled(self.closure.node):
+            raise Untranslatable("it changes an array of a caller that has no place in C: give that a name there")
         if isinstance(now, Stored | View):  # in place
             grids.fill(self.unit, now, after)
         else:

@@ -72,6 +72,17 @@ def names_set(node: Any) -> frozenset[str]:
     return frozenset(each.id for each in targets if isinstance(each, ast.Name))
 
 
+@functools.cache
+def takers(node: Any, name: str) -> frozenset[str]:
+    """Return the names of functions that are called with a name."""
+    calls = (each for each in ast.walk(node) if isinstance(each, ast.Call) and isinstance(each.func, ast.Name))
+    return frozenset(
+        each.func.id  # type: ignore[attr-defined]
+        for each in calls
+        if any(isinstance(operand, ast.Name) and operand.id == name for operand in each.args)
+    )
+
+
 def _is_stored(node: ast.Subscript) -> bool:
     return isinstance(node.ctx, ast.Store)
 

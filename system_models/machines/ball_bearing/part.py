@@ -97,13 +97,6 @@ class BallBearing(Part):
         "rad/s", "speed below which friction goes over to that at rest", above=0.0, most=10.0, default=0.1
     )
 
-    @classmethod
-    def instead(cls) -> Mapping[Any, Callable[..., Any]]:
-        """Equilibrium and load classes with scalars."""
-        from .scalars import INSTEAD  # which needs this module
-
-        return INSTEAD
-
     def check(self) -> None:
         """Raise SceneError if the dimensions do not go together."""
         self.dimensions.check()
@@ -291,7 +284,7 @@ class BallBearing(Part):
 
 def pressure(race: Race, load: float) -> float:
     """Return the largest pressure [Pa] of a contact under a load [N] >= 0."""
-    return race.ellipse(load).pressure_max if load else 0.0
+    return race.unit.pressure_max * race.unit.growth(load)[0]
 
 
 def _alike(name: str, race: RaceName, k: int, nominal: float) -> dict[str, Any]:
