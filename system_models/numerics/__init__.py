@@ -5,7 +5,6 @@
     richardson    the error of a step from its halves
     control       error norm and step size
     iteration     fixed point, Aitken; the table of all methods
-    eigen         eigenvalues of small symmetric matrices, of components in C
     quasi_newton  interface quasi-Newton of least squares; secant: the same of one value
 
 Arrays are in the order of the wiring that the master has made.

@@ -1,4 +1,4 @@
-"""What components compute with arrays, once more with scalars and bounded loops: to be written in C.
+"""What components compute with functions of scipy and numpy, once more with bounded loops: to be written in C.
 
 `INSTEAD` names the functions that these stand for. They agree to rounding.
 """
@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import linear, thermal
-from ..numerics.eigen import symmetric_eigen
 from .conduction import Modes
+from .eigen import symmetric_eigen
 from .part import State, Values
 from .thermal import Regimes, ThermalNetwork
 

@@ -64,7 +64,12 @@ def sum_by_mask(x, y):
 def chosen_by_element(x, y):
     values = LONG * x
     share = np.divide(y, values, out=np.ones_like(values), where=values > 1.0)
-    return np.where(values > y, share, -1.0)[::11], np.any(values > 6.0 * y), np.all(values < 1e3), np.sign(values)[::13]
+    return (
+        np.where(values > y, share, -1.0)[::11],
+        np.any(values > 6.0 * y),
+        np.all(values < 1e3),
+        np.sign(values)[::13],
+    )
 
 
 def products(x, y):
@@ -75,14 +80,20 @@ def products(x, y):
 
 def joined(x, y):
     values = LONG * x
-    return np.append(values, y)[-3:], np.array([values, values + y])[:, ::30], np.full((2, 3), y), np.stack([values])[0, :2]
+    return (
+        np.append(values, y)[-3:],
+        np.array([values, values + y])[:, ::30],
+        np.full((2, 3), y),
+        np.stack([values])[0, :2],
+    )
 
 
 def carried(x, y):
     values, count = LONG * 0.0, 0
     while values.max() < 10.0 and count < 9:
         if y > 0.0:
-            values = values + abs(x) * LONG
+            more = abs(x) * LONG
+            values = values + more
         else:
             values = values + 1.0
         count += 1
@@ -149,7 +160,8 @@ def chosen_by_an_input(x, y):
     if x < 0.0:
         part = values[:3]
     else:
-        part = np.array([x, y, 1.0]) + values[3:6]
+        least = np.array([x, y, 1.0])
+        part = least + values[3:6]
     return part, values[-1]
 
 
@@ -174,7 +186,9 @@ CONSTRUCTS = (
 
 def listed(result):
     """Return a result with arrays as lists, and whole numbers as they are."""
-    return flat([np.asarray(each, np.float64).tolist() for each in (result if isinstance(result, tuple) else (result,))])
+    return flat(
+        [np.asarray(each, np.float64).tolist() for each in (result if isinstance(result, tuple) else (result,))]
+    )
 
 
 @pytest.mark.parametrize("function", CONSTRUCTS)

@@ -192,7 +192,7 @@ class Translator:
         if isinstance(function, Closure):
             closure = function
         else:
-            function = inspect.unwrap(self._instead.get(function, function))
+            function = _bare(self._instead.get(function, function))
             if not is_dynamic(operands) and not is_dynamic(named):
                 return function(*operands, **named)
             closure = closure_of(function)
@@ -431,6 +431,11 @@ def _declared(parameter: Num, sets: bool) -> str:
     if "[" not in parameter.kind:
         return f"{code.c_type(parameter.kind)} {parameter.text}"
     return f"{'' if sets else 'const '}{code.c_type(parameter.kind[0])} *{parameter.text}"
+
+
+def _bare(function: Any) -> types.FunctionType:
+    """Return a function without its wrappers, such as that of the compiler."""
+    return inspect.unwrap(function)
 
 
 def _is_elementwise(function: types.FunctionType) -> bool:

@@ -10,8 +10,7 @@ import numpy as np
 
 from . import grid_parts, grid_sums, grids
 from .grids import Derived, Grid, Stored, Writer, elementwise
-from .library import HANDLERS, chosen, maximum, minimum
-from .loops import Span
+from .library import HANDLERS, Span, chosen, maximum, minimum
 from .values import Num, Untranslatable, both, call, compare, either, is_dynamic, is_number
 
 _SIGNS = {operator.add, operator.sub, operator.mul, operator.truediv, operator.neg, operator.pos, operator.and_}

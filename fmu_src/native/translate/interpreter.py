@@ -9,7 +9,8 @@ import numpy as np
 from . import code, grids
 from .expressions import Expressions
 from .grids import Stored, View
-from .loops import Span, counted, repeated
+from .library import Span
+from .loops import counted, repeated
 from .sources import is_compiled
 from .units import Poison, Text
 from .values import Num, Untranslatable

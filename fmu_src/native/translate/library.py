@@ -18,6 +18,15 @@ from .values import Num, Untranslatable, as_double, both, call, compare, either,
 Handler = Callable[..., Any]
 
 
+@dataclasses.dataclass(frozen=True)
+class Span:
+    """A range with an end that is known at run time only."""
+
+    start: Any
+    stop: Any
+    step: int = 1
+
+
 def elementwise(function: Handler) -> Handler:
     """Return a function that takes arrays, too."""
 

@@ -2,24 +2,15 @@
 
 import ast
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import Any
 
 from . import code, grids
+from .library import Span
 from .units import Names, Poison, Unit, common_kind, matched, unified
 from .values import Num, leaves, literal, replaced, signature
 
 MOST_ROUNDS = 10_000  # of a loop whose end is known at run time only: the time of a step is bounded
 _TOO_LONG = f"The step needs more than {MOST_ROUNDS} parts: the surfaces change too much in it. Take shorter steps."
-
-
-@dataclass(frozen=True)
-class Span:
-    """A range with an end that is known at run time only."""
-
-    start: Any
-    stop: Any
-    step: int = 1
 
 
 def counted(scope: Names, node: ast.For, items: range | Span) -> None:

@@ -38,7 +38,8 @@ _TAKEN = KEYWORDS.union(  # and what headers of C and elementary.h have
     re.findall(
         r"\w+",
         "why exp log pow sqrt fabs floor ceil round gamma time index j0 j1 y0 y1 jn yn tanh sinh remainder signal "
-        "squared smaller larger centre from_bits bits_of exp_parts exp_of log_of power_of_two refuse whole_number place_inside memcpy memset ratio_of",
+        "squared smaller larger centre from_bits bits_of exp_parts exp_of log_of power_of_two refuse "
+        "whole_number place_inside memcpy memset ratio_of",
     )
 )
 

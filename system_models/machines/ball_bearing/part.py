@@ -1,6 +1,6 @@
 """A ball bearing as a component: forces and speed out to the classes of its contacts, friction and heat back."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
