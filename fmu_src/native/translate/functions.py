@@ -24,6 +24,7 @@ from .results import (
     given_places,
     handed_on,
     holes_in,
+    parameter_of,
     part_names,
     wanted_fields,
     with_alike,
@@ -407,9 +408,9 @@ class Translator:
             block.pop()
         names = code.used(block)
         used = [number.text in names for number in parameters]
-        given = [_declared(p, p.text in unit.written) for p, each in zip(parameters, used, strict=True) if each]
+        given = [parameter_of(p, p.text in unit.written) for p, each in zip(parameters, used, strict=True) if each]
         arrays = [hole for hole in every if "[" in hole.kind]
-        given += [_declared(Num(out, hole.kind), True) for out, hole in zip(unit.outs, arrays, strict=True)]
+        given += [parameter_of(Num(out, hole.kind), True) for out, hole in zip(unit.outs, arrays, strict=True)]
         if unit.may_fail:
             given.append("contact_message *why")
         if not holes:
@@ -424,13 +425,6 @@ class Translator:
         lines = [*code.comment(about(closure)), *head, "{", *code.printed(block), "}"]
         self.functions.append((name, "\n".join(lines)))
         return CFunction(name, used, template, all_fields, unit.may_fail, None, sets)
-
-
-def _declared(parameter: Num, sets: bool) -> str:
-    """Return the declaration of a parameter; an array that is not set is constant."""
-    if "[" not in parameter.kind:
-        return f"{code.c_type(parameter.kind)} {parameter.text}"
-    return f"{'' if sets else 'const '}{code.c_type(parameter.kind[0])} *{parameter.text}"
 
 
 def _bare(function: Any) -> types.FunctionType:
