@@ -142,7 +142,8 @@ def changed_by_a_call(x, y):
     table = _triangle(4, y)
     row = table[2]
     row += 1.0
-    return before, last, values[::9], table, _summed_up(table[1], -5.0), table[1]
+    both = table[3, 0] + _summed_up(table[3], -5.0), values[4], _summed_up(values, y)
+    return both[0], both[1], both[2], before, last, values[::9], table, _summed_up(table[1], -5.0), table[1]
 
 
 def handed_on(x, y):

@@ -15,7 +15,7 @@ import numpy as np
 from . import code, grid_library, grid_parts, grids
 from .grids import Derived, Grid, Stored, View
 from .library import ALWAYS, ARRAY_METHODS, HANDLERS, chosen, elementwise
-from .sources import is_compiled, names_set, takers
+from .sources import calls, is_compiled, names_set, takers
 from .units import Poison, Text, Unit, Writer
 from .values import Closure, Method, Num, Untranslatable, both, compare, either, is_dynamic, is_number, literal
 
@@ -94,7 +94,7 @@ class Expressions:
         return list(grids.stored(self.unit, value) if isinstance(value, Derived) else value)
 
     def _kept(self, value: Any) -> Any:
-        """Return a number that the next assignment does not change."""
+        """Return a number that the next assignment or call does not change."""
         if isinstance(value, Num) and self.unit.may_change(value.text):
             return self.unit.let("value", value)
         return value
@@ -173,11 +173,12 @@ class Expressions:
 
     def _items(self, nodes: list[ast.expr]) -> list[Any]:
         found: list[Any] = []
-        for each in nodes:
+        for i, each in enumerate(nodes):
             if isinstance(each, ast.Starred):
                 found.extend(self.value(each.value))
             else:
-                found.append(self.value(each))
+                value = self.value(each)
+                found.append(self._kept(value) if any(map(calls, nodes[i + 1 :])) else value)
         return found
 
     def _of_Dict(self, node: ast.Dict) -> Any:
@@ -220,7 +221,8 @@ class Expressions:
         return -value if isinstance(node.op, ast.USub) else +value
 
     def _of_BinOp(self, node: ast.BinOp) -> Any:
-        return self.operated(node.op, self.value(node.left), self.value(node.right))
+        left = self.value(node.left)
+        return self.operated(node.op, self._kept(left) if calls(node.right) else left, self.value(node.right))
 
     def operated(self, op: ast.operator, one: Any, other: Any) -> Any:
         """Return one value, an operator and another."""

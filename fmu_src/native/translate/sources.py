@@ -83,6 +83,12 @@ def takers(node: Any, name: str) -> frozenset[str]:
     )
 
 
+@functools.cache
+def calls(node: ast.expr) -> bool:
+    """Return True for an expression with a call."""
+    return any(isinstance(each, ast.Call) for each in ast.walk(node))
+
+
 def _is_stored(node: ast.Subscript) -> bool:
     return isinstance(node.ctx, ast.Store)
 
