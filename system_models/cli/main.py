@@ -13,7 +13,7 @@ from typing import Protocol
 
 from contact_core.errors import ContactError
 
-from . import build, check, cosim, fit, listing, run, stribeck, surfaces
+from . import build, check, cosim, fit, listing, run, stribeck, surfaces, sweep
 from . import map as mapping
 
 
@@ -33,6 +33,7 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "surfaces": (surfaces, "what a scene's grid shows of its surfaces"),
     "run": (run, "run a scene's contact, or a machine, through its duty"),
     "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),
+    "sweep": (sweep, "run a scene with many values of some of its keys"),
     "fit": (fit, "fit constants of a scene to measured films, friction or wear"),
     "map": (mapping, "make the map of a scene for film.model = 'map', by solved contacts"),
     "build": (build, "build the FMU of a scene, for another tool"),

@@ -31,12 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--time", metavar="T", default="30min", help="time after which no more knots are solved (default: %(default)s)"
     )
-    parser.add_argument(
-        "--processes", metavar="N", type=int, default=1, help="processes that solve knots (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--executor", metavar="dask://HOST:PORT", help="scheduler of a cluster that solves them instead (extra 'dask')"
-    )
+    executor_arguments(parser, "knots")
     for option, text in (
         ("--load", "loads, such as 10:80, in N"),
         ("--entrainment", "entrainment speeds, such as 0.01:1, in m/s"),
@@ -45,6 +40,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     ):
         parser.add_argument(option, metavar="LOW:HIGH", help=f"{text} (default: about the scene's operation)")
     add_settings(parser, "change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'")
+
+
+def executor_arguments(parser: argparse.ArgumentParser, what: str) -> None:
+    """Add the arguments that say where `what` are solved."""
+    parser.add_argument(
+        "--processes", metavar="N", type=int, default=1, help=f"processes for the {what} (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--executor", metavar="dask://HOST:PORT", help="scheduler of a cluster in their place (extra 'dask')"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -61,7 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
         Ranges.of(scene, given),
         _accuracy(arguments.accuracy),
         _seconds(arguments.time),
-        _processes(arguments.processes),
+        processes_of(arguments.processes),
         arguments.executor,
     )
     folder = output_folder(arguments.out, scene.name)
@@ -94,7 +99,8 @@ def _seconds(text: str) -> float:
         raise ContactError(f"--time = '{text}' is not a time such as 90s, 30min or 2h.") from None
 
 
-def _processes(count: int) -> int:
+def processes_of(count: int) -> int:
+    """Return --processes. Raises ContactError for less than 1, or far too many."""
     if not 1 <= count <= 1024:
         raise ContactError(f"--processes = {count} must be at least 1 and at most 1024.")
     return count

@@ -13,7 +13,7 @@ from ..store.results import ERROR
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_SOURCE = "Dawczyk et al. 2019, 10.1007/s11249-019-1148-9"
+_SOURCE = "Dawczyk et al. 2019, doi:10.1007/s11249-019-1148-9"
 _ROUGH = ("tribofilm_roughness_1", "tribofilm_roughness_2", "composite_roughness")
 _PANELS = (
     ("friction_coefficient", "friction coefficient", None),
