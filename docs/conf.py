@@ -21,10 +21,13 @@ extensions = [
     "sphinx_copybutton",
     "docstrings",
     "doi",
+    "mathtext",
 ]
 exclude_patterns = ["_extensions"]
 default_role = "code"  # of docstrings: names in single backticks
 myst_heading_anchors = 4
+myst_fence_as_directive = ["math"]  # as GitHub has it
+html_math_renderer = "mathtext"
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "description"

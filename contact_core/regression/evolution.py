@@ -25,7 +25,8 @@ from .surfaces import Means, Tribofilms, added_friction, composite_roughness, me
 
 _SAME = 1e-4  # a contact evaluated before the surfaces changed by less, relative, is the contact after it
 _AGREED = 0.05  # of control.change: contacts before and after a step may differ by so much in the surfaces they make
-_TRIAL = 1.0  # s: step from which the speed of the surfaces' change is taken
+_TRIAL = 1.0  # s: step from which the speed of the surfaces' change is taken, where there is none that is not short
+_SHORT = 1e-6  # s: over a shorter step, differences of the surfaces are lost in rounding
 
 
 ContactOf = Callable[[Case, Tribofilms], MeanContact]  # of a case and of both tribofilms
@@ -55,11 +56,12 @@ def advance(
             after, outputs = _stepped(now, state, step, contact_of)
         warm = temperatures_after(now, after.outputs, step)
         state, left = changed(after, temperatures=warm), left - step
-    rates = [(out - old) / dt for out, old in zip((outputs.wear_volume_1, outputs.wear_volume_2), before, strict=True)]
+    if dt >= _SHORT:
+        volumes = outputs.wear_volume_1, outputs.wear_volume_2
+        rates = [(out - old) / dt for out, old in zip(volumes, before, strict=True)]
+        outputs = changed(outputs, wear_rate_1=rates[0], wear_rate_2=rates[1])
     bodies = case.warmed(state.temperatures).op.bodies
-    outputs = changed(
-        outputs, wear_rate_1=rates[0], wear_rate_2=rates[1], temperature_1=bodies[0], temperature_2=bodies[1]
-    )
+    outputs = changed(outputs, temperature_1=bodies[0], temperature_2=bodies[1])
     return changed(state, outputs=outputs), outputs
 
 
@@ -82,7 +84,7 @@ def _stepped(case: Case, state: ContactState, dt: float, contact_of: ContactOf) 
     classes = classes_at(case.scene, state)
     contact = contact_of(case, films)
     harm = None if classes is None else harm_by(case, contact)
-    speed = 0.0  # at which the surfaces change [m/s]
+    step, speed = 0.0, 0.0  # of the last part [s]; at which the surfaces change [m/s]
     while left > 0.0:
         start, newer = means, False
         step, means, films, speed = _substep(case, contact, start, left)
@@ -97,10 +99,11 @@ def _stepped(case: Case, state: ContactState, dt: float, contact_of: ContactOf) 
             classes = fatigued(case.scene, classes, harm, start, means)
             if newer:
                 harm = harm_by(case, contact)
-    if dt > 0.0:
+    if step < _SHORT:
+        speed = _substep(case, contact, means, _TRIAL)[3]
+    if dt >= _SHORT:
         rates = [(now.worn - then.worn) / dt for now, then in zip(means, before, strict=True)]
     else:
-        speed = _substep(case, contact, means, _TRIAL)[3]
         pairs = zip(case.sides, films, strict=True)
         rates = [wear_rate(case, side, contact, film.thickness, film.oxide) for side, film in pairs]
     if not math.isfinite(contact.solid + contact.fluid + contact.gap):

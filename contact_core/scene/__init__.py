@@ -11,6 +11,8 @@
     accuracy    grid, tolerance, blocks and instants for an accuracy that is asked for
     checks      what makes a scene or an operating point unusable
     toml        TOML to records and back
+    in_use      the laws that a scene uses, with their equations
+    origins     where each value of a scene comes from
     tunables    numbers that may be changed in a scene
     units       "1.26 GPa" to SI
 

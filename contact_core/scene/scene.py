@@ -18,7 +18,7 @@ from .height_map import HeightMap
 from .heights import Heights
 from .operation import OperatingPoint
 from .surface import SEEDS
-from .toml import build, completed, did_you_mean, folder_of, full_key, located, override, override_order, read_table
+from .toml import build, completed, did_you_mean, given, located
 from .units import parse
 
 _SEED_STEP = 1_327_217_885  # the odd number nearest to SEEDS over the golden ratio
@@ -35,12 +35,7 @@ class Scene(SceneFields):
         sets in `overrides` the other way round. Raises SceneError with every sentence that says what is wrong and what
         would be right.
         """
-        folders = (folder_of(source), Path())
-        table = located(read_table(source), *folders)
-        changes = {full_key(key, value): value for key, value in (overrides or {}).items()}
-        for key, value in sorted(changes.items(), key=override_order):
-            last = key.rpartition(".")[2]
-            override(table, key, located({last: value}, *reversed(folders))[last])
+        table, folders = given(source, overrides or {})
         return Scene.from_dict(table, *folders)
 
     @staticmethod

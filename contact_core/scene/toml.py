@@ -39,24 +39,41 @@ def shipped_scenes() -> dict[str, str]:
 
 def read_table(source: str | Path, kind: str = "scene") -> dict[str, Any]:
     """Read a scene's TOML by name or path, as nested tables; `kind` of file, for messages."""
+    try:
+        return tomllib.loads(text_of(source, kind))
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(f"The {kind} file '{source}' is not valid TOML: {error}.") from None
+
+
+def text_of(source: str | Path, kind: str = "scene") -> str:
+    """Return the text of a scene's TOML by name or path; `kind` of file, for messages."""
     shipped = files("contact_core") / "data" / "scenes" / f"{source}.toml"
     path = Path(source)
     try:
         if path.suffix == ".toml":
-            text = path.read_text("utf-8")
-        elif shipped.is_file():
-            text = shipped.read_text("utf-8")
-        else:
-            names = list(shipped_scenes())
-            raise SceneError(
-                f"There is no scene '{source}'.{did_you_mean(str(source), names)} Shipped are "
-                f"{', '.join(names)}; or give the path of a .toml file."
-            )
-        return tomllib.loads(text)
+            return path.read_text("utf-8")
+        if shipped.is_file():
+            return shipped.read_text("utf-8")
     except OSError as error:
         raise SceneError(f"The {kind} file '{source}' cannot be read: {error.strerror}.") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError as error:
         raise SceneError(f"The {kind} file '{source}' is not valid TOML: {error}.") from None
+    names = list(shipped_scenes())
+    raise SceneError(
+        f"There is no scene '{source}'.{did_you_mean(str(source), names)} Shipped are "
+        f"{', '.join(names)}; or give the path of a .toml file."
+    )
+
+
+def given(source: str | Path, overrides: Mapping[str, str]) -> tuple[dict[str, Any], tuple[Path, ...]]:
+    """Return a scene's tables with `overrides`, of dotted keys, and the folders in which its files are looked for."""
+    folders = (folder_of(source), Path())
+    table = located(read_table(source), *folders)
+    changes = {full_key(key, value): value for key, value in overrides.items()}
+    for key, value in sorted(changes.items(), key=override_order):
+        last = key.rpartition(".")[2]
+        override(table, key, located({last: value}, *reversed(folders))[last])
+    return table, folders
 
 
 def folder_of(source: str | Path) -> Path:
@@ -221,6 +238,23 @@ def _found(file: str, folders: tuple[Path, ...]) -> Path:
     raise SceneError(f"The file of sets '{file}' is not in {places}. Give its path from there, or an absolute one.")
 
 
+def file_of_set(given: str, path: str) -> tuple[Path, str]:
+    """Return the file of a set of the table at a dotted path, that table's usual one or `PATH.toml:name`, and its name.
+
+    Raises SceneError for a table without named sets.
+    """
+    if _OF_FILE in given:
+        file, _, name = given.rpartition(_OF_FILE)
+        return Path(f"{file}.toml"), name.strip().lower()
+    if path not in _SET_FILES:
+        raise SceneError(
+            f"[{path}] has no named sets. Known are sets for {', '.join(_SET_FILES)}; any table may have one of a "
+            "file, such as set = 'fitted.toml:NAME'."
+        )
+    folder = Path(str(files("contact_core"))) / "data"
+    return folder / f"{_SET_FILES[path]}.toml", given.strip().lower()
+
+
 def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
     """Replace `set = "name"` (in capitals or not) by the named values of data/*.toml; keys written beside it win.
 
@@ -228,22 +262,12 @@ def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
     """
     if "set" not in table:
         return table
-    given = str(table.pop("set"))
-    file, in_file, given = given.rpartition(_OF_FILE) if _OF_FILE in given else ("", "", given)
-    name = given.strip().lower()
-    if in_file:
-        tables = read_table(f"{file}.toml", "set")
-        data = {key.lower(): value for key, value in tables.items() if isinstance(value, dict)}
-    elif path in _SET_FILES:
-        data = tomllib.loads((files("contact_core") / "data" / f"{_SET_FILES[path]}.toml").read_text("utf-8"))
-    else:
-        raise SceneError(
-            f"[{path}] has no named sets. Known are sets for {', '.join(_SET_FILES)}; any table may have one of a "
-            "file, such as set = 'fitted.toml:NAME'."
-        )
+    chosen = str(table.pop("set"))
+    file, name = file_of_set(chosen, path)
+    data = {key.lower(): value for key, value in read_table(file, "set").items() if isinstance(value, dict)}
     sets = {key: value[path] for key, value in data.items() if isinstance(value.get(path), dict)}
     if name not in sets:
-        where = f" in '{file}.toml'" if in_file else ""
+        where = f" in '{file}'" if _OF_FILE in chosen else ""
         known = f"Known are {', '.join(sets)}." if sets else f"There is no [NAME.{path}] in that file."
         raise SceneError(f"[{path}] has no set '{name}'{where}.{did_you_mean(name, list(sets))} {known}")
     return _merged(sets[name], table, path)

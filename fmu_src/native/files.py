@@ -8,13 +8,14 @@ from ..flavours import Version
 from ..runtime.resources import MODEL, guid
 from ..variables import variables
 from . import build, program
+from .built_in import built_in
 from .model import model_c
 from .tables import tables_h
 
 
 def sources(scene: Scene, fmi: Version) -> dict[str, bytes]:
     """Return name and content of the sources. Raises SceneError if none can be generated for the scene."""
-    model = model_c(variables(scene), guid(scene, "native", fmi))
+    model = model_c(built_in(variables(scene)), guid(scene, "native", fmi), guid(scene, "native"))
     return {**build.runtime(fmi), **contact(scene), "model.c": model.encode()}
 
 

@@ -36,7 +36,7 @@ def bound(given: Case, state: ContactState) -> Case:
     """Return a case with the temperatures of a state. Raises OperatingPointError where it cannot be used."""
     scene, point = given.scene, given.op
     _check_radii(given)
-    case = Case.at(scene, _with_own_radii(given), state.temperatures)
+    case = Case.at(scene, _withown_radii(given), state.temperatures)
     law, bulk, inlet = scene.tribofilm, scene.heat.bulk, scene.lubricant.supply.inlet
     for temperature in point.bodies if bulk.from_inputs else (point.temperature,):
         if law.refusal(_COLD) and not law.covers(temperature):
@@ -66,7 +66,7 @@ def _check_radii(case: Case) -> None:
 
     The elliptic integrals of its shape are computed when the FMU is built.
     """
-    for name, radius in _own_radii(case.scene).items():
+    for name, radius in own_radii(case.scene).items():
         given = getattr(case.op, name)
         if given is not None and abs(given - radius) > _SAME_RADIUS * radius:
             raise OperatingPointError(
@@ -75,16 +75,16 @@ def _check_radii(case: Case) -> None:
             )
 
 
-def _own_radii(scene: Scene) -> dict[str, float]:
+def own_radii(scene: Scene) -> dict[str, float]:
     """Return the radii that the FMU of a scene holds: those of a point."""
     names = () if "radius_y" in scene.geometry.lacks else ("radius_x", "radius_y")
     return {name: getattr(scene.operation, name) or getattr(scene.geometry, name) for name in names}
 
 
-def _with_own_radii(case: Case) -> OperatingPoint:
+def _withown_radii(case: Case) -> OperatingPoint:
     """Return an operating point with those radii as constants; None where they are those of the geometry."""
     operation = case.scene.operation
-    own = {name: getattr(operation, name) and radius for name, radius in _own_radii(case.scene).items()}
+    own = {name: getattr(operation, name) and radius for name, radius in own_radii(case.scene).items()}
     return dataclasses.replace(case.op, **own)
 
 
@@ -216,7 +216,7 @@ def _key(scene: Scene) -> str:
     for name in TRACKS if _may_vary(scene) else ():
         table["geometry"].pop(name)
     for name in _point_names(scene):
-        if name not in _own_radii(scene):
+        if name not in own_radii(scene):
             table["operation"].pop(name, None)
     return json.dumps(table, sort_keys=True)
 

@@ -13,7 +13,7 @@ from typing import Protocol
 
 from contact_core.errors import ContactError
 
-from . import build, check, cosim, fit, listing, run, stribeck, surfaces, sweep
+from . import build, check, cosim, explain, fit, listing, run, stribeck, surfaces, sweep
 from . import map as mapping
 
 
@@ -30,6 +30,7 @@ class Command(Protocol):
 # name: its module, and its line in the help
 COMMANDS: dict[str, tuple[Command, str]] = {
     "list": (listing, "name the shipped scenes and machines"),
+    "explain": (explain, "name the laws of a scene, the sources of its numbers, and what it leaves out"),
     "surfaces": (surfaces, "what a scene's grid shows of its surfaces"),
     "run": (run, "run a scene's contact, or a machine, through its duty"),
     "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),

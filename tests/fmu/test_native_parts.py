@@ -11,6 +11,8 @@ import pytest
 from fmpy.fmi2 import FMU2Slave
 from fmpy.validation import validate_fmu
 
+from contact_core.errors import SceneError
+from fmu_src.flavours import Flavour
 from fmu_src.native import build as native_build
 from system_models.machines.ball_bearing.geometry import BEARING_209
 from system_models.machines.ball_bearing.part import BallBearing
@@ -134,6 +136,28 @@ def test_a_native_component_is_a_valid_fmu_without_python(tmp_path: Path) -> Non
         assert "sources/contact.c" in names
         assert b'needsExecutionTool="false"' in archive.read("modelDescription.xml")
     assert validate_fmu(str(file)) == []
+
+
+@pytest.mark.parametrize("flavour", ["native", "isolated"])
+def test_a_component_gives_the_same_by_both_versions_of_fmi(flavour: Flavour, tmp_path: Path) -> None:
+    """Description, library and build description are of the model's name and of that version."""
+    files = [build(Brake(), tmp_path / f"{fmi}.fmu", flavour, fmi=fmi, here=True) for fmi in (2, 3)]
+    assert [validate_fmu(str(file)) for file in files] == [[], []]
+    starts = {"torque_setpoint": 20.0, "speed": 3.0}
+    two, three = (
+        fmpy.simulate_fmu(str(file), stop_time=1.0, output_interval=0.1, start_values=starts) for file in files
+    )
+    assert two.dtype.names == three.dtype.names
+    assert two.tobytes() == three.tobytes()
+    assert two["power"][-1] != 0.0
+    if flavour == "native":
+        with zipfile.ZipFile(files[1]) as archive:
+            assert b'modelIdentifier="Brake"' in archive.read("sources/buildDescription.xml")
+
+
+def test_a_component_is_not_embedded_in_fmi_3(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match=r"There is no FMU of FMI 3\.0 with flavour = 'embedded'"):
+        build(Brake(), tmp_path / "brake.fmu", "embedded", fmi=3)
 
 
 def test_a_state_saved_before_outputs_were_asked_for_gives_the_same_ones(tmp_path: Path) -> None:
