@@ -15,7 +15,7 @@ def declared(block: code.Block) -> code.Block:
             kept.append(statement)
             continue
         mentioned = code.used([statement]) | _set(statement)
-        if isinstance(statement, code.Put) and statement.name in open_lets:
+        if isinstance(statement, code.Put) and statement.place is None and statement.name in open_lets:
             let = open_lets.pop(statement.name)
             kept = [each for each in kept if each is not let]
             kept.append(code.Let(let.ctype, let.name, statement.value, changes=True))

@@ -145,7 +145,7 @@ class _Nodes:
                 raise _Unlike
             lets = [self.made[name] for name in given]
             texts = [_TOKEN.findall(text) for text in self._shared([each.value or "" for each in lets])]
-            if len(set(map(len, texts))) > 1 or any(each.may_refuse for each in lets):
+            if len(set(map(len, texts))) > 1 or any(each.may_refuse or "[" in (each.value or "") for each in lets):
                 raise _Unlike
             name = self.unit.fresh(_common(given))
             parts = [self._part(column, name) for column in zip(*texts, strict=True)]
@@ -182,10 +182,12 @@ class _Nodes:
 
 
 def _assigned(block: code.Block) -> set[str]:
-    """Return the variables that a block sets anew."""
+    """Return the variables and arrays that a block sets anew."""
     found: set[str] = set()
     for statement in block:
-        if isinstance(statement, code.Put):
+        if isinstance(statement, code.Let | code.Call):
+            found |= statement.writes
+        elif isinstance(statement, code.Put):
             found.add(statement.name)
         elif isinstance(statement, code.If):
             found |= _assigned(statement.then) | _assigned(statement.otherwise)

@@ -18,7 +18,10 @@ class Untranslatable(Exception):  # noqa: N818  # what it is, not that it failed
 
 
 class Num:
-    """A number at run time: a C expression of kind "d" (double), "i" (int) or "b" (0 or 1)."""
+    """A number at run time: a C expression of kind "d" (double), "i" (int) or "b" (0 or 1).
+
+    Of kind "d[12]" it is a C array of that many.
+    """
 
     __slots__ = ("binds", "kind", "text")
 
@@ -120,6 +123,25 @@ class Num:
 
     def __ne__(self, other: object) -> Any:
         return compare("!=", self, other)
+
+
+class Grid:
+    """An array at run time, see `grids`."""
+
+    shape: tuple[int, ...]
+
+    def members(self) -> list[tuple[str, Any]]:
+        """Return the C arrays that it consists of; see `parts`."""
+        return []
+
+    def with_members(self, members: list[Any]) -> "Grid":
+        """Return an array like it that lies in other C arrays."""
+        return self
+
+
+def array_kind(kind: str, size: int) -> str:
+    """Return the kind of a C array of numbers of a kind."""
+    return f"{kind}[{size}]"
 
 
 def literal(value: Any, kind: str = "d") -> Num:
@@ -283,6 +305,8 @@ _WHOLE = frozenset({float, int, bool, str, type(None), np.float64, FunctionType,
 
 def parts(value: Any) -> list[tuple[str, Any]] | None:
     """Return names and members of a value that has some; None of one that is whole."""
+    if isinstance(value, Grid):
+        return value.members()
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return list(zip(value._fields, value, strict=True))
     if isinstance(value, tuple | list):
@@ -302,6 +326,8 @@ def parts(value: Any) -> list[tuple[str, Any]] | None:
 
 def rebuilt(value: Any, members: list[Any]) -> Any:
     """Return a value like another, with other members (in the order of `parts`)."""
+    if isinstance(value, Grid):
+        return value.with_members(members)
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return type(value)(*members)
     if isinstance(value, tuple | list):
@@ -325,7 +351,7 @@ def rebuilt(value: Any, members: list[Any]) -> Any:
 
 def is_dynamic(value: Any) -> bool:
     """Return True if any number in a value is known at run time only."""
-    if isinstance(value, Num):
+    if isinstance(value, Num | Grid):
         return True
     if type(value) in _WHOLE or id(value) in _static:
         return False
@@ -348,7 +374,8 @@ def _collect(value: Any, name: str, found: list[tuple[str, Num]]) -> None:
     elif not (type(value) in _WHOLE or id(value) in _static):
         before = len(found)
         for part, item in parts(value) or ():
-            _collect(item, part if not part[:1].isdigit() or not name else f"{name}_{part}", found)
+            own = part if not part[:1].isdigit() or not name else f"{name}_{part}"
+            _collect(item, name if isinstance(value, Grid) else own, found)
         if len(found) == before:
             _remember(value)
 
@@ -380,7 +407,7 @@ def signature(value: Any) -> Any:
         own = (
             (id(value.node),) if isinstance(value, Closure) else (value.function,) if isinstance(value, Method) else ()
         )
-        shape = value.shape if isinstance(value, np.ndarray) else ()
+        shape = value.shape if isinstance(value, np.ndarray | Grid) else ()
         return type(value), own, shape, tuple((name, signature(item)) for name, item in parts(value) or ())
     if isinstance(value, Closure):
         return id(value.node), tuple((name, signature(item)) for name, item in value.names.items())
