@@ -282,13 +282,13 @@ class Translator:
             if not (found.may_fail or writes):
                 return lambda _: Num(call, kind)
             name = unit.fresh(found.name)
-            unit.emit(code.Let(code.c_type(kind), name, call, found.may_fail, writes))
+            unit.emit(code.Let(code.c_type(kind), name, call, found.may_fail, writes=writes))
             return lambda _: Num(name, kind)
         struct = None if writes else unit.known(call)
         if struct is None:
             struct = unit.fresh(f"of_{found.name}")
             unit.keep(call, struct)
-            unit.emit(code.Let(f"struct {found.name}", struct, call, found.may_fail, writes))
+            unit.emit(code.Let(f"struct {found.name}", struct, call, found.may_fail, writes=writes))
         return lambda field: Num(f"{struct}.{field}", kinds[field])
 
     def _checked(self, unit: Unit) -> None:
@@ -397,7 +397,7 @@ class Translator:
         holder = template if template is not None else ()
         unit = self._written(name, closure, bound, holder, parameters)
         every, all_fields = holes_in(holder), wanted_fields(holder, unit.part_names)
-        holes = [hole for hole in every if "[" not in hole.kind]
+        arrays, holes = ([h for h in every if ("[" in h.kind) is array] for array in (True, False))
         fields = [field for field, hole in zip(all_fields, every, strict=True) if "[" not in hole.kind]
         sets = frozenset(i for i, parameter in enumerate(parameters) if parameter.text in unit.written)
         if not every and not unit.may_fail and not sets:
@@ -406,14 +406,13 @@ class Translator:
             forward = forwarded(unit, holder, parameters)
             if forward is not None:
                 return CFunction(name, [False] * len(parameters), template, fields, False, forward)
-        pruned = code.pruned(unit.blocks[0], {*unit.outs, *(parameters[i].text for i in sets)})
-        block = declared(rolled(unit, pruned))
+        block = code.pruned(unit.blocks[0], {*unit.outs, *(parameters[i].text for i in sets)})
+        block = declared(rolled(unit, block))
         if not holes and block and isinstance(block[-1], code.Do) and block[-1].text == "return;":
             block.pop()
         names = code.used(block)
         used = [number.text in names for number in parameters]
         given = [parameter_of(p, p.text in unit.written) for p, each in zip(parameters, used, strict=True) if each]
-        arrays = [hole for hole in every if "[" in hole.kind]
         given += [parameter_of(Num(out, hole.kind), True) for out, hole in zip(unit.outs, arrays, strict=True)]
         if unit.may_fail:
             given.append("contact_message *why")
@@ -426,8 +425,7 @@ class Translator:
             members = [f"    {code.c_type(h.kind)} {f};" for f, h in zip(fields, holes, strict=True)]
             self.functions.append((name, "\n".join([f"struct {name} {{", *members, "};"])))
         head = code.head(result, name, given)
-        lines = [*code.comment(about(closure)), *head, "{", *code.printed(block), "}"]
-        self.functions.append((name, "\n".join(lines)))
+        self.functions.append((name, "\n".join([*code.comment(about(closure)), *head, "{", *code.printed(block), "}"])))
         return CFunction(name, used, template, all_fields, unit.may_fail, None, sets)
 
 
