@@ -16,7 +16,7 @@ from contact_core import initial_state
 from contact_core.errors import OperatingPointError, SceneError
 from contact_core.film import Mapped, Regression
 from contact_core.mapped.map import map_of
-from contact_core.mapped.query import corrected
+from contact_core.mapped.query import corrected, slopes
 from contact_core.quantities import OF_CALLER, OF_CORE
 from contact_core.regression import evolution
 from contact_core.regression.contact import MeanContact, evaluate
@@ -91,8 +91,7 @@ def _withown_radii(case: Case) -> OperatingPoint:
 def step(case: Case, state: ContactState, dt: float) -> Found:
     """Return the state and the outputs after a step of `dt` [s]."""
     begun = _begun(case.op, state)
-    contacts = _contacts(case.scene, derivatives=False)
-    after, outputs = evolution.advance(bound(case, begun), begun, dt, contacts)
+    after, outputs = evolution.advance(bound(case, begun), begun, dt, _LEVELS[case.scene.film.name](case.scene))
     if case.scene.heat.bulk.stores_heat and dt == 0.0:  # bodies begin at the temperature of the oil of the first step
         after = changed(after, temperatures=state.temperatures)
     return after, outputs
@@ -103,34 +102,34 @@ def derivatives(case: Case, state: ContactState) -> tuple[float, float, float, f
     begun = _begun(case.op, state)
     now = bound(case, begun).warmed(begun.temperatures)
     assert state.means is not None
-    return _contacts(case.scene, derivatives=True)(now, tribofilms_of(state.means)).derivatives
+    films = tribofilms_of(state.means)
+    if _by_map(case.scene):
+        return slopes(map_of(case.scene), now, films)
+    return evaluate(now, films).derivatives
 
 
-def _contacts(scene: Scene, *, derivatives: bool) -> evolution.ContactOf:
-    """Return the function that evaluates contacts of a scene at its level."""
-    return _LEVELS[scene.film.name](scene, derivatives)
-
-
-def _of_curves(scene: Scene, derivatives: bool) -> evolution.ContactOf:
+def _of_curves(scene: Scene) -> evolution.ContactOf:
     def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-        return evaluate(case, tribofilms, derivatives)
+        return evaluate(case, tribofilms, derivatives=False)
 
     return contact_of
 
 
-def _of_map(scene: Scene, derivatives: bool) -> evolution.ContactOf:
+def _of_map(scene: Scene) -> evolution.ContactOf:
     chart = map_of(scene)
 
     def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-        return corrected(chart, case, evaluate(case, tribofilms, derivatives))
+        return corrected(chart, case, evaluate(case, tribofilms, derivatives=False))
 
     return contact_of
 
 
-_LEVELS: dict[str, Callable[[Scene, bool], evolution.ContactOf]] = {
-    Regression.name: _of_curves,
-    Mapped.name: _of_map,
-}
+# of a scene at its level, the function that evaluates contacts, without derivatives
+_LEVELS: dict[str, Callable[[Scene], evolution.ContactOf]] = {Regression.name: _of_curves, Mapped.name: _of_map}
+
+
+def _by_map(scene: Scene) -> bool:
+    return {Regression.name: False, Mapped.name: True}[scene.film.name]
 
 
 def _begun(point: OperatingPoint, state: ContactState) -> ContactState:
@@ -223,7 +222,7 @@ def _key(scene: Scene) -> str:
 
 def _may_vary(scene: Scene) -> bool:
     """Return True if track lengths can be numbers at run time: a map is read for the scene as it is."""
-    return {Regression.name: True, Mapped.name: False}[scene.film.name]
+    return not _by_map(scene)
 
 
 def _tracks(*lengths: float) -> str:
