@@ -11,7 +11,7 @@ thesis      the shipped cases against the thesis that they are from
 machines    ball bearings, gear pairs, the test rig
 coupling    the co-simulation master, other masters and importers
 fmu         cost of a step, memory, lost processes
-house       faults put into the code, numbers of two revisions (`golden.py`), arguments, figures of the README, stale pages
+house       faults put into the code, numbers of two revisions (`golden.py`), arguments, docs/how_good.md, stale pages
 models      small FMUs with exact solutions, for benchmarks and tests
 hosts       programs that load FMUs, and importers of SSP, for benchmarks and tests
 

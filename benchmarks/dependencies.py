@@ -22,7 +22,7 @@ DEFAULTS = ("calls", "control")  # of which only these count: what follows from 
 GROUPS: dict[str, tuple[str, ...]] = {
     "film": (*(f"contact_core/{room}/*.py" for room in ("kernels", "laws", "shapes", "reference", "film")),
              "-contact_core/film/estimate.py", "-contact_core/film/refined.py", "-contact_core/film/grid_steps.py", "-contact_core/film/grid_error.py",
-             "-contact_core/film/regression.py", "-contact_core/kernels/cache.py", "-contact_core/laws/load_sharing.py",
+             "-contact_core/laws/equations.py", "-contact_core/laws/symbols.py", "-contact_core/film/regression.py", "-contact_core/kernels/cache.py", "-contact_core/laws/load_sharing.py",
              "-contact_core/kernels/subsurface.py", "-contact_core/kernels/stress_measures.py", "-contact_core/reference/stresses.py"),
     "calls": ("contact_core/calls/*.py", "-contact_core/calls/subsurface_stress.py"),
     "stress": ("contact_core/kernels/subsurface.py", "contact_core/kernels/stress_measures.py", "contact_core/reference/stresses.py",
@@ -149,6 +149,7 @@ PAGES: dict[str, Source] = {
     "machines/thousand_hours": Source("machines.thousand_hours", (*RIGS, "native")),
     "fmu/overhead": Source("fmu.overhead", ("regression", "fmu", "models")),
     "fmu/endurance": Source("fmu.endurance", ("fmu", "models")),
+    "fmu/native": Source("fmu.native", ("regression", "fmu", "native", "models", *SHAPES)),
     "coupling/accuracy": Source("coupling.accuracy", ("master", "models")),
     "coupling/cost": Source("coupling.cost", ("master", "models")),
     "coupling/masters": Source("coupling.masters", ("master", "models")),

@@ -42,6 +42,8 @@ def written(node: object) -> str:
         return f"Raise({written(raised)})"
     if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.target.id in SAID:
         return ""
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Equations":
+        return ""
     if _is_parameter(node):
         return f"parameter({written([key.value for key in node.keywords if key.arg == 'default'])})"
     fields = dict(ast.iter_fields(node))

@@ -60,7 +60,7 @@ class Variable:
     def variability(self) -> Variability:
         """FMI's variability; only a Real is continuous."""
         if self.causality == "parameter":
-            return "tunable" if self.name == FIDELITY else "fixed"
+            return "tunable" if self.name == FIDELITY and self.minimum < self.maximum else "fixed"
         return "continuous" if self.kind == "Real" else "discrete"
 
 

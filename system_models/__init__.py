@@ -3,8 +3,11 @@
 Each package imports only from those below it:
 
     cli/        the command line, a file per command
+    html_report/ results as HTML pages: of one run, and of several beside each other
     check/      checks any FMU: a verdict per rule
     machines/   kinds of machines, a folder each: ball on disc, ball bearing, gear pair, cam and follower
+    sweep/      many runs of one scene: plan, points, sensitivity, report
+    explain/    what a scene is made of: laws, numbers and their sources
     run/        one contact through its duty, Stribeck curves, and what simulations report
     master/     couples any FMUs and controls its own error
     parts/      components of machines that have no contact

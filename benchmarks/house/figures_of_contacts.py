@@ -1,4 +1,4 @@
-"""Figures of the README about one contact at one instant."""
+"""Figures of docs/how_good.md about one contact at one instant."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""Figures of the README about the two levels: the regression level, and two hours at the deterministic one."""
+"""Figures of docs/how_good.md about the two levels: the regression level, and two hours at the deterministic one."""
 
 from benchmarks.house.tables import Pages, Row, line_of, link, number, pair, per_cent
 

@@ -1,4 +1,4 @@
-"""Figures of the README about FMU, coupling, machines and the thesis."""
+"""Figures of docs/how_good.md about FMU, coupling, machines and the thesis."""
 
 import re
 

@@ -83,7 +83,7 @@ def per_cent(share: float) -> str:
 
 def link(*pages: str) -> str:
     """Links to pages."""
-    return ", ".join(f"[{page.removesuffix('.md')}](docs/measured/{page})" for page in pages)
+    return ", ".join(f"[{page.removesuffix('.md')}](measured/{page})" for page in pages)
 
 
 def range_of(cells: Iterable[str], say: Callable[[float], str]) -> tuple[str, str]:

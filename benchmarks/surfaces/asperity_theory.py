@@ -57,7 +57,9 @@ def persson_gap(band: Band, mean: float) -> float:
 
 
 def greenwood_tripp_gap(band: Band, mean: float) -> float:
-    """Return the distance of the mean planes of two like bodies by Greenwood & Tripp, doi:10.1243/PIME_PROC_1970_185_069_02.
+    """Return the distance of the mean planes of two like bodies of Greenwood & Tripp.
+
+    Source: Greenwood & Tripp, Proc. IMechE 185 (1970) 625, doi:10.1243/PIME_PROC_1970_185_069_02.
 
     Each body has half of the variance. Summits by the moments of the spectrum (Nayak, J. Lubr. Technol. 93 (1971) 398,
     doi:10.1115/1.3451608).

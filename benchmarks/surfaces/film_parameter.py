@@ -1,6 +1,6 @@
 """Film parameter of Hansen et al., (h_m + h_c f_q) / Spk, of a scene: film formulas and the heights of its surfaces.
 
-The abstract of doi:10.1007/s11249-025-02060-6 gives this form, with the transition at 1. It does not give f_q, which
+The abstract (Hansen, Prajapati, Björling & Larsson 2025, doi:10.1007/s11249-025-02060-6) gives this form, with the transition at 1. It does not give f_q, which
 stands for the elastic flattening of asperities under oil and depends on their lay. Here it is bounded. f_q = 0 leaves
 them rigid. At the other end h_c f_q = Spk - Spk', with Spk' of the surfaces as amplitude reduction theory, which the
 abstract names as an alternative, deforms them: the parameter is then 1 where h_m = Spk'.

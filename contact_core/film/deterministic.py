@@ -22,6 +22,7 @@ _GOVERNING = (
         ),
         "At every node, with the squeeze of the passing roughness.",
         title="Flow of the oil (Reynolds)",
+        source="Reynolds 1886, doi:10.1098/rstl.1886.0005",
     ),
     Equations(
         ("h = h_0 + g(x, y) − z_1 − z_2 + d",),
@@ -35,12 +36,17 @@ _CAVITATION = {
         ("p_f = 0 where it would be negative",),
         "The gap counts as full there, so that oil appears behind a cavity (Reynolds' outlet condition).",
         title="Oil under tension: lubricant.cavitation = reynolds",
+        left_out=(
+            "Conservation of oil in cavities: behind a ruptured film the gap counts as full, so oil appears there, and "
+            "what it feeds comes out too thick. 'mass_conserving' keeps count."
+        ),
     ),
     "mass_conserving": Equations(
         ("p_f ≥ 0,   0 ≤ θ ≤ 1,   p_f (1 − θ) = 0", "ρ h → θ ρ h in entrainment and squeeze"),
         "θ is the share of the gap that oil fills. Oil that flows into a cavity flows out of it (Jakobsson, Floberg, "
         "Olsson; Elrod).",
         title="Oil under tension: lubricant.cavitation = mass_conserving",
+        source="Elrod 1981, doi:10.1115/1.3251669; as a complementarity: Giacopini et al. 2010, doi:10.1115/1.4002215",
     ),
 }
 _SHARING = {

@@ -38,6 +38,17 @@ class Regression:
         "only. No pressure exceeds the hardness. c: uneven pressure shears less than even pressure, for the limiting "
         "stress cuts its peaks.",
         title="Friction",
+        symbols={
+            "c": "constant of load sharing, film.sharing.oil_kept [1]",
+            "K": "constant of load sharing, film.sharing.oil_pressure_excess [1]",
+            "w": "constant of load sharing, film.sharing.oil_steepness [1]",
+            "d": "constant of load sharing, film.sharing.oil_pressure_decay [1]",
+            "q": "constant of load sharing, film.sharing.oil_pressure_power [1]",
+            "S": "constant of load sharing, film.sharing.oil_spread [1]",
+            "Z": "film of the smooth bodies by formula over composite rms roughness [1]",
+            "s": "flattening of the roughness on the grid [1]",
+            "A_H": "area of Hertz's contact [m2]",
+        },
     )
 
     points: int = parameter(

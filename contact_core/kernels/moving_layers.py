@@ -1,6 +1,6 @@
 """What material carries through layers at fixed depths below a surface that is worn: see `damage`.
 
-In a layer the values are linear, with van Leer's slopes (J. Comput. Phys. 32 (1979) 101,
+In a layer the values are linear, with limited slopes (van Leer, J. Comput. Phys. 32 (1979) 101,
 doi:10.1016/0021-9991(79)90145-1), so that at its faces they are between its mean and those of its neighbours.
 """
 

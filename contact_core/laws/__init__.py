@@ -14,6 +14,7 @@
     asperity_layer      roughness below the grid: not yet in a scene
     temperatures        records of the heat and the temperatures of a contact
     equations           text of a law's equations, for documentation
+    symbols             what the symbols of these equations stand for
     elementary          elementary functions of numbers and arrays
 
 Each law is a frozen dataclass with a `name`, its `source`, its `equations`, its parameters and array functions. A

@@ -38,11 +38,18 @@ class AsperityLayer:
     )
     equations: ClassVar[Equations] = Equations(
         (
-            "s = p_0 exp(−h/h_0),   p_e = q σ E'/2,   q = 2π/λ_l",
+            "s = p_0 exp(−h/h_0),   p_e = q σ E′/2,   q = 2π/λ_l",
             "p_0 = [p_e^{−2} + (1.1 H)^{−2}]^{−1/2},   h_0 = σ [0.52 − 0.08 p_0/p_e]",
             "A = min(1, [A_e^4 + (s/H)^4]^{1/4}),   A_e = erf[√π/2 · 2.2 s/(2.3 p_e)]",
         ),
         "σ is the rms height of the waves that no grid carries, λl the longest of them, h the height above the floor.",
+        symbols={
+            "s": "mean pressure of the asperities [Pa]",
+            "h": "height above the floor [m]",
+            "σ": "rms",
+            "λ_l": "longest",
+            "H": "hardness under the local tribofilm [Pa]",
+        },
     )
 
     rms: float = parameter("m", "rms height of the waves that no grid carries", least=0.0, most=1e-5)

@@ -28,6 +28,12 @@ class FilmBlend:
     equations: ClassVar[Equations] = Equations(
         ("τ_{solid} = μ p_s tanh(|v|/v_0),   μ = μ_{bare} + (μ_{film} − μ_{bare}) c",),
         "c is the mean cover of both bodies by tribofilm, 0 to 1; v0 is slip_speed.",
+        symbols={
+            "v_0": "slip_speed",
+            "μ_{bare}": "bare",
+            "μ_{film}": "film",
+            "c": "mean cover of both bodies by tribofilm, 0 to 1 [1]",
+        },
     )
 
     bare: float = parameter("", "friction coefficient of bare solids", least=0.0, most=2.0)

@@ -23,6 +23,11 @@ class OilBulk:
     stores_heat: ClassVar[bool] = False
     equations: ClassVar[Equations] = Equations(
         ("T_{bulk,1} = T_{bulk,2} = T_{oil}",),
+        symbols={
+            "T_{bulk,1}": "bulk temperature of body 1 [K]",
+            "T_{bulk,2}": "bulk temperature of body 2 [K]",
+        },
+        left_out="Warming of the bodies: both stay at the temperature of the oil, however much heat the contact makes.",
     )
 
     def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
@@ -46,6 +51,9 @@ class InputBulk:
     equations: ClassVar[Equations] = Equations(
         ("T_{bulk,i} = T_{b,i}",),
         "The inputs body_temperature_1 and _2; the heat flows are outputs.",
+        symbols={
+            "T_{b,i}": "inputs body_temperature_1 and body_temperature_2 [K]",
+        },
     )
 
     def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
@@ -73,6 +81,11 @@ class LumpedBulk:
     equations: ClassVar[Equations] = Equations(
         ("C_i ∂T_{bulk,i}/∂t = Q_i − G_i (T_{bulk,i} − T_{oil})",),
         "Exact over a step of constant heat.",
+        symbols={
+            "C_i": "heat capacity of body i, heat_capacity_1 and heat_capacity_2 [J/K]",
+            "Q_i": "heat that the contact puts into body i [W]",
+            "G_i": "conductance from body i to the oil, conductance_1 and conductance_2 [W/K]",
+        },
     )
 
     heat_capacity_1: float = parameter("J/K", "C, heat capacity of body 1", least=1e-9, most=1e9)

@@ -23,7 +23,17 @@ class NoDoubleLayer:
 
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
-    equations: ClassVar[Equations] = Equations(("η_a = η",), "The viscosity does not depend on the gap.")
+    equations: ClassVar[Equations] = Equations(
+        ("η_a = η",),
+        "The viscosity does not depend on the gap.",
+        symbols={
+            "η_a": "apparent viscosity [Pa s]",
+        },
+        left_out=(
+            "Electric double layers: some 2 % of the viscosity of thin films of oil at most, but up to 29 % of that of "
+            "water."
+        ),
+    )
     acts: ClassVar[bool] = False
 
     def __call__(self, gap: Array, temperature: float) -> Array:
@@ -52,6 +62,13 @@ class Electroviscous:
         ),
         "λ D is Debye's length, ζ the potential of the surfaces, ε the permittivity of the oil, a the radius of the "
         "ions. For e ζ up to k_B T.",
+        symbols={
+            "η_a": "apparent viscosity [Pa s]",
+            "λ_D": "debye_length",
+            "a": "ion_radius",
+            "ε": "permittivity of the oil, relative_permittivity times that of vacuum [F/m]",
+            "ζ": "zeta potential of both surfaces, zeta_energy over the elementary charge [V]",
+        },
     )
     acts: ClassVar[bool] = True
 

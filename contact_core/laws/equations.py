@@ -1,7 +1,8 @@
 """Equations of a law as text, for documentation.
 
 Notation: Unicode; `_` and `^` start an index or exponent of one character, or of several in braces: `h_c`, `x^{1/2}`.
-`fmu_src.package.markup` turns a line into HTML.
+Equations that share a line stand three spaces apart. `fmu_src.package.document.markup` turns a line into HTML,
+`system_models.explain.latex` into LaTeX.
 """
 
 from collections.abc import Mapping
@@ -18,6 +19,10 @@ class Equations:
     title: str = ""  # where the class that carries them does not name them
     source: str = ""  # where it is not that of the class
     options: Mapping[str, Mapping[str, "Equations"]] = field(default_factory=dict)  # by option of the law and choice
+    symbols: Mapping[str, str] = field(
+        default_factory=dict
+    )  # its own: field of the law, or "text [unit]", see `symbols`
+    left_out: str = ""  # what a contact with this law does without, and what that costs
 
 
 class OfShape(Protocol):

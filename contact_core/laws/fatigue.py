@@ -28,6 +28,10 @@ class NoFatigue:
     source: ClassVar[str] = ""
     equations: ClassVar[Equations] = Equations(
         ("D = 0",),
+        symbols={
+            "D": "damage; the material fails at 1 [1]",
+        },
+        left_out="Fatigue: load cycles damage nothing, and no micropits break out.",
     )
     damages: ClassVar[bool] = False
 
@@ -52,6 +56,16 @@ class Basquin:
     equations: ClassVar[Equations] = Equations(
         ("D = Σ 1/N,   N = N_{ref} (S_{ref}/S)^m", "S = √3 √J_{2,a} > S_{limit}"),
         "√J_{2,a} is the radius of the smallest sphere around the deviators of a cycle. Material fails at D = 1.",
+        symbols={
+            "D": "damage; the material fails at 1 [1]",
+            "N": "cycles to failure [1]",
+            "N_{ref}": "reference_cycles",
+            "S_{ref}": "reference_stress",
+            "S": "von Mises amplitude of the cycle [Pa]",
+            "m": "life_exponent",
+            "S_{limit}": "endurance_limit",
+            "J_{2,a}": "square of the radius of the smallest sphere around the deviators of a cycle [Pa2]",
+        },
     )
     damages: ClassVar[bool] = True
 
@@ -92,6 +106,16 @@ class DangVan:
         ("D = Σ 1/N,   S = S_1 − B ln N", "S = max_t[τ(t) + 3 (t_{-1}/b_{-1} − 1/2) σ_h(t)] > S_{limit}"),
         "τ is the largest shear of the deviator less the centre of the smallest sphere around the cycle's deviators, "
         "σ_h the hydrostatic stress, tension positive. Material fails at D = 1.",
+        symbols={
+            "D": "damage; the material fails at 1 [1]",
+            "N": "cycles to failure [1]",
+            "S": "Dang Van's stress [Pa]",
+            "S_1": "single_strength",
+            "B": "strength_drop",
+            "S_{limit}": "torsion_endurance",
+            "t_{-1}": "fatigue limit in torsion, stress.torsion_limit [Pa]",
+            "b_{-1}": "fatigue limit in bending, stress.bending_limit [Pa]",
+        },
     )
     damages: ClassVar[bool] = True
 
@@ -132,6 +156,17 @@ class Morrow:
         ),
         "√J_{2,a} is the radius of the smallest sphere around the deviators of a cycle. With strain lives σ_f (2N)^b/E "
         "+ ε_f (2N)^c: W_f = 4 σ_f ε_f (c − b)/(c + b) and e = −1/(b + c).",
+        symbols={
+            "D": "damage; the material fails at 1 [1]",
+            "N": "cycles to failure [1]",
+            "W_f": "failure_work",
+            "ΔW": "plastic work per cycle [J/m3]",
+            "e": "work_exponent",
+            "n": "cyclic_hardening",
+            "S": "von Mises amplitude of the cycle [Pa]",
+            "K": "cyclic_strength",
+            "J_{2,a}": "square of the radius of the smallest sphere around the deviators of a cycle [Pa2]",
+        },
     )
     damages: ClassVar[bool] = True
 

@@ -143,7 +143,18 @@ class FittedSharing:
         "the roughness on the grid, sm: the longest wave below it; Σ: sliding over entrainment speed; Π: Hertz's "
         "largest pressure over the hardness; s, sm and Σ count at most as 1.25 times the largest of the fit; "
         "ρ: density of the oil under Hertz's mean pressure, over that without pressure.",
-    )
+        symbols={
+            "B": "load_factor", "C": "load_exponent", "m": "load_flattening", "l": "load_below", "v": "load_slip",
+            "y": "load_yield", "b": "load_parted", "A": "area_factor", "D": "area_exponent", "G": "film_dry",
+            "k": "film_parted", "H": "film_layer", "F": "film_mixed", "E": "film_factor", "n": "film_exponent",
+            "Z": "film of the smooth bodies by formula over composite rms roughness [1]",
+            "f": "that film over the height to which roughness below the grid reaches [1]",
+            "s": "flattening of the roughness on the grid [1]",
+            "s_m": "flattening of the longest wave below the grid [1]",
+            "Π": "Hertz's largest pressure over the hardness [1]",
+            "ρ": "density of the oil under Hertz's mean pressure, over that at p = 0 [1]",
+        },
+    )  # fmt: skip
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.003, 47.0),
         "layers": (0.014, 94.0),

@@ -23,6 +23,10 @@ class NoOxide:
     source: ClassVar[str] = ""
     equations: ClassVar[Equations] = Equations(
         ("x = 0",),
+        symbols={
+            "x": "thickness of the oxide [m]",
+        },
+        left_out="Oxide: solids that no tribofilm covers stay bare, with the friction and wear of bare solids.",
     )
     grows: ClassVar[bool] = False
     friction: ClassVar[float] = 0.0  # of nothing
@@ -79,6 +83,15 @@ class Logarithmic:
         ),
         "Oxide where no tribofilm covers the solids; T is the bulk temperature. It bears the share min(x/xc, 1) of "
         "their open part with a friction coefficient of its own; the steel in what is rubbed off counts as wear.",
+        symbols={
+            "x": "thickness of the oxide [m]",
+            "x_0": "scale",
+            "A_0": "prefactor",
+            "E": "activation_energy",
+            "K": "wear",
+            "H": "hardness",
+            "h_s": "thin",
+        },
     )
     grows: ClassVar[bool] = True
 

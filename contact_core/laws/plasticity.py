@@ -30,14 +30,27 @@ class ElasticPerfectlyPlastic:
     """
 
     name: ClassVar[str] = "elastic_perfectly_plastic"
-    source: ClassVar[str] = "Azam et al. 2019, doi:10.1016/j.triboint.2018.11.011"
+    source: ClassVar[str] = (
+        "Azam et al. 2019, doi:10.1016/j.triboint.2018.11.011; films pressed in: Andersson et al. 2012, "
+        "doi:10.1039/c2fd00132b"
+    )
     equations: ClassVar[Equations] = Equations(
         (
             "p ≤ H(c),   H(c) = H_{steel} − (H_{steel} − H_{film}) c",
-            "c h_{max} = max[max(h_1, h_2) − U,   (h_1 + h_2 − U)/2,   0]",
+            "c h_{max} = max[max(h_1, h_2) − U, (h_1 + h_2 − U)/2, 0]",
         ),
         "h_i are the tribofilms, h_max is their full thickness. U is the plastic depth that plasticity.indentation "
         "counts.",
+        symbols={
+            "H": "hardness under the local tribofilm [Pa]",
+            "H_{steel}": "hardness",
+            "H_{film}": "film_hardness",
+            "c": "tribofilm above the plastic depth, over its full thickness, 0 to 1 [1]",
+            "h_{max}": "full thickness of the tribofilm, tribofilm.full_thickness [m]",
+            "h_1": "tribofilm of body 1 [m]",
+            "h_2": "tribofilm of body 2 [m]",
+            "U": "plastic depth that indentation counts [m]",
+        },
     )
 
     hardness: float = parameter("Pa", "hardness of the bare solids", above=1e6, most=1e12)

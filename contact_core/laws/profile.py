@@ -23,6 +23,12 @@ class Rounded:
     equations: ClassVar[Equations] = Equations(
         ("P = R_e − [R_e^2 − max(|y| − s/2, 0)^2]^{1/2},   |y| ≤ b/2",),
         "s is the straight length, Re the radius along the axis beyond it.",
+        symbols={
+            "P": "material taken away at y [m]",
+            "R_e": "radius",
+            "s": "straight",
+            "b": "face width, geometry.face_width [m]",
+        },
     )
 
     straight: float = parameter("m", "length of the straight part", least=0.0, most=10.0)
@@ -42,6 +48,11 @@ class Logarithmic:
     equations: ClassVar[Equations] = Equations(
         ("P = d ln{1/[1 − (2 y/b)^2]},   |y| < b/2",),
         "d is depth.",
+        symbols={
+            "P": "material taken away at y [m]",
+            "d": "depth",
+            "b": "face width, geometry.face_width [m]",
+        },
     )
 
     depth: float = parameter("m", "factor on ln[1 / (1 - (2 y / length)^2)]", above=0.0, most=1e-3)

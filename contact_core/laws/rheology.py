@@ -76,6 +76,13 @@ class Newtonian(_Limited):
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_N,   at most Λ p_f",),
         "Λ: limiting_coefficient; 0 means no limit.",
+        symbols={
+            "Λ": "limiting_coefficient",
+        },
+        left_out=(
+            "Shear thinning of the oil: thin films that slide fast rub more than they would, once the Newtonian "
+            "stress exceeds some MPa."
+        ),
     )
     thins: ClassVar[bool] = False
 
@@ -97,10 +104,16 @@ class Eyring(_Limited):
     """tau = tau_E asinh(eta rate / tau_E)."""
 
     name: ClassVar[str] = "eyring"
-    source: ClassVar[str] = "Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129"
+    source: ClassVar[str] = (
+        "Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129; limit: Bair & Winer 1979, doi:10.1115/1.3453342"
+    )
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_E arsinh(τ_N/τ_E),   at most Λ p_f",),
         "Λ: limiting_coefficient; 0 means no limit.",
+        symbols={
+            "Λ": "limiting_coefficient",
+            "τ_E": "eyring_stress",
+        },
     )
     thins: ClassVar[bool] = True
 
@@ -126,10 +139,18 @@ class Carreau(_Limited):
     """tau = eta rate [1 + (eta rate / G)^2]^((n - 1) / 2)."""
 
     name: ClassVar[str] = "carreau"
-    source: ClassVar[str] = "Carreau 1972, doi:10.1122/1.549276; in elastohydrodynamics Bair 2007, ISBN 9780444528803"
+    source: ClassVar[str] = (
+        "Carreau 1972, doi:10.1122/1.549276; in elastohydrodynamics Bair 2007, ISBN 9780444528803; limit: Bair & Winer "
+        "1979, doi:10.1115/1.3453342"
+    )
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_N [1 + (τ_N/G)^2]^{(n − 1)/2},   at most Λ p_f",),
         "Λ: limiting_coefficient; 0 means no limit.",
+        symbols={
+            "Λ": "limiting_coefficient",
+            "G": "critical_stress",
+            "n": "exponent",
+        },
     )
     inlet_thinning: ClassVar[Equations] = Equations(
         (
@@ -139,6 +160,12 @@ class Carreau(_Limited):
         "Shear thins the oil in the inlet: the film is φ of the Newtonian one.",
         title="Shear thinning in the inlet: lubricant.flow = local",
         source="Bair, Proc. IMechE J 219 (2005) 69",
+        symbols={
+            "φ": "film thickness over that of a Newtonian oil [1]",
+            "S": "slide-to-roll ratio [1]",
+            "G": "critical_stress",
+            "n": "exponent",
+        },
     )
     thins: ClassVar[bool] = True
 

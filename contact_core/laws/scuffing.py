@@ -18,6 +18,10 @@ class NoScuffing:
     source: ClassVar[str] = ""
     equations: ClassVar[Equations] = Equations(
         ("S = 0",),
+        symbols={
+            "S": "scuffing_ratio [1]",
+        },
+        left_out="Risk of scuffing: scuffing_ratio is zero, however hot the contact is.",
     )
     judges: ClassVar[bool] = False
 
@@ -44,6 +48,11 @@ class CriticalTemperature:
     equations: ClassVar[Equations] = Equations(
         ("S = (T_{max} − T_{oil})/(T_{crit} − T_{oil}),   0 ≤ S ≤ 1000",),
         "S > 1: the largest temperature of the surfaces is above the critical one.",
+        symbols={
+            "S": "scuffing_ratio [1]",
+            "T_{max}": "contact_temperature_max [K]",
+            "T_{crit}": "temperature",
+        },
     )
     judges: ClassVar[bool] = True
 

@@ -33,6 +33,10 @@ class NoStress:
     source: ClassVar[str] = ""
     equations: ClassVar[Equations] = Equations(
         ("σ = ?",),
+        symbols={
+            "σ": "stress below the surfaces [Pa]",
+        },
+        left_out="Stresses below the surfaces: von_mises_max and the fatigue ratios are zero, whatever the load.",
     )
     samples: ClassVar[bool] = False
     error: ClassVar[str] = ""
@@ -74,6 +78,14 @@ class HalfSpace:
         ),
         "p_h = tr σ/3, tension positive; τ is the largest shear stress about the middle of the cycle of the deviator, "
         "√J_{2,a} the radius of the smallest sphere around that cycle. Unloaded, σ is the residual stress.",
+        symbols={
+            "R_D": "dang_van_ratio [1]",
+            "R_C": "crossland_ratio [1]",
+            "t_{-1}": "torsion_limit",
+            "b_{-1}": "bending_limit",
+            "p_h": "hydrostatic stress, tension positive [Pa]",
+            "J_{2,a}": "square of the radius of the smallest sphere around the deviators of a cycle [Pa2]",
+        },
     )
     samples: ClassVar[bool] = True
 

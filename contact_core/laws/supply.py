@@ -18,6 +18,7 @@ class Flooded:
     equations: ClassVar[Equations] = Equations(
         ("p_f = 0 at the edge of the grid",),
         "The inlet is as full as the grid is wide.",
+        left_out="Starvation: where less oil comes in than the contact can take, the film is thinner than computed.",
     )
 
     starves: ClassVar[bool] = False
@@ -38,6 +39,9 @@ class SupplyFilm:
     equations: ClassVar[Equations] = Equations(
         ("ρ h θ = ρ_0 h_{oil} where oil comes in",),
         "h oil is the thickness. Pressure begins where the gap is full.",
+        symbols={
+            "h_{oil}": "thickness",
+        },
     )
     starves: ClassVar[bool] = True
 
@@ -64,6 +68,9 @@ class Meniscus:
     equations: ClassVar[Equations] = Equations(
         ("p_f = 0 for x < −d",),
         "d is the distance. The gap is full from there on.",
+        symbols={
+            "d": "distance",
+        },
     )
     starves: ClassVar[bool] = True
 

@@ -44,6 +44,12 @@ class Roelands:
             "p_0 = 196 MPa,   η in pascal seconds,   T in kelvin",
         ),
         "z and S follow from the pressure and temperature coefficients at p = 0 and T0.",
+        symbols={
+            "η_0": "viscosity",
+            "T_0": "reference_temperature",
+            "z": "exponent of the pressure, pressure_coefficient p_0/(ln η_0 + 9.67) [1]",
+            "S": "exponent of the temperature, temperature_coefficient (T_0 − 138)/(ln η_0 + 9.67) [1]",
+        },
     )
 
     viscosity: float = parameter("Pa s", "viscosity at p = 0 and the reference temperature", above=6.4e-5, most=1e3)
@@ -75,6 +81,12 @@ class Barus:
     source: ClassVar[str] = "Barus, Am. J. Sci. 45 (1893) 87, doi:10.2475/ajs.s3-45.266.87"
     equations: ClassVar[Equations] = Equations(
         ("η = η_0 exp[α p − β (T − T_0)]",),
+        symbols={
+            "η_0": "viscosity",
+            "T_0": "reference_temperature",
+            "α": "pressure_coefficient",
+            "β": "temperature_coefficient",
+        },
     )
 
     viscosity: float = parameter("Pa s", "viscosity at p = 0 and the reference temperature", above=0.0, most=1e3)
@@ -106,6 +118,15 @@ class Modulus:
     equations: ClassVar[Equations] = Equations(
         ("η = K exp[C/(D + T)] exp{p/[a_1 + a_2 T + (b_1 + b_2 T) p]}",),
         "Vogel's law without pressure, the modulus equation with it.",
+        symbols={
+            "K": "vogel_viscosity",
+            "C": "vogel_slope",
+            "D": "vogel_offset",
+            "a_1": "modulus",
+            "a_2": "modulus_slope",
+            "b_1": "bend",
+            "b_2": "bend_slope",
+        },
     )
 
     vogel_viscosity: float = parameter("Pa s", "K, viscosity of the hot oil", above=0.0, most=1.0)
@@ -147,10 +168,21 @@ class AstmD341:
     equations: ClassVar[Equations] = Equations(
         (
             "log_{10} log_{10}(ν + 0.7) = A − B log_{10} T,   ν in mm^2/s",
+            "η(0, T) = ν ρ,   ρ = ρ_{15} [1 − ε (T − 288.15)]",
             "η = η_∞ [η(0, T)/η_∞]^m,   m = (1 + p/p_0)^z",
         ),
         "A straight line through the data sheet's two viscosities; the density falls linearly "
         "with temperature. Under pressure Roelands' law, 63.1 µPa s and 196 MPa.",
+        symbols={
+            "ν": "kinematic viscosity [mm2/s]",
+            "A": "constant of the line through viscosity_40 and viscosity_100 [1]",
+            "B": "slope of that line [1]",
+            "ρ_{15}": "density",
+            "ε": "expansion",
+            "η_∞": "63.1 µPa s [Pa s]",
+            "p_0": "196 MPa [Pa]",
+            "z": "exponent of the pressure, by the pressure_coefficient at the reference_temperature [1]",
+        },
     )
 
     viscosity_40: float = parameter(

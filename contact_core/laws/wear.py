@@ -24,6 +24,9 @@ class NoWear:
     source: ClassVar[str] = ""
     equations: ClassVar[Equations] = Equations(
         ("w = 0",),
+        left_out=(
+            "Wear: rubbing takes nothing from the solids; their roughness stays but for plastic depth and tribofilm."
+        ),
     )
     of_sliding: ClassVar[bool] = True
     wears: ClassVar[bool] = False
@@ -106,6 +109,14 @@ class Archard(_BySliding):
         ("∂w/∂t = K p_s v/H,   K = K_{bare} + (K_{film} − K_{bare}) c",),
         "ps is the mean solid pressure on a point of the surface over its track, c the thickness of its "
         "tribofilm over the full thickness; wear.sliding chooses the speed v.",
+        symbols={
+            "p_s": "mean solid pressure of a surface point over its track [Pa]",
+            "v": "speed that sliding chooses [m/s]",
+            "H": "hardness of the bare solids, plasticity.hardness [Pa]",
+            "K_{bare}": "bare",
+            "K_{film}": "film",
+            "c": "tribofilm of the body over its full thickness, 0 to 1 [1]",
+        },
     )
 
     bare: float = _bare()
@@ -151,6 +162,16 @@ class FilmFirst(_BySliding):
         ),
         "The tribofilm wears in proportion to its cover, the solid where the film is thin. ps is the mean solid "
         "pressure on a point of the surface over its track; wear.sliding chooses the speed v.",
+        symbols={
+            "p_s": "mean solid pressure of a surface point over its track [Pa]",
+            "v": "speed that sliding chooses [m/s]",
+            "H": "hardness of the bare solids, plasticity.hardness [Pa]",
+            "K_{bare}": "bare",
+            "K_{film}": "film",
+            "h_s": "thin",
+            "H_{film}": "hardness of the full tribofilm, plasticity.film_hardness [Pa]",
+            "h_{max}": "full thickness of the tribofilm, tribofilm.full_thickness [m]",
+        },
     )
 
     bare: float = _bare()

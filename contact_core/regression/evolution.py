@@ -12,20 +12,21 @@ from typing import Any
 import numpy as np
 
 from ..errors import ConvergenceError, OperatingPointError
-from ..scene import Case, Side
+from ..scene import Case, Scene, Side
 from ..state import Classes, ContactState, Mean, Outputs, changed
 from ..state.bulk_temperature import NO_TIME, cool_time, temperatures_after
 from ..surfaces.damage_classes import classes_of
 from ..surfaces.track_means import means_of
 from .contact import MeanContact, evaluate
 from .exposure import abrasion, doses, oxidised, solid_rate, track_area, wear_rate
-from .fatigue import Harm, fatigued, harm_by, outputs_below
+from .fatigue import fatigued, harm_by, outputs_below
 from .outputs import outputs_of
 from .surfaces import Means, Tribofilms, added_friction, composite_roughness, mean_cover, regression_film, tribofilms_of
 
 _SAME = 1e-4  # a contact evaluated before the surfaces changed by less, relative, is the contact after it
 _AGREED = 0.05  # of control.change: contacts before and after a step may differ by so much in the surfaces they make
-_TRIAL = 1.0  # s: step from which the speed of the surfaces' change is taken
+_TRIAL = 1.0  # s: step from which the speed of the surfaces' change is taken, where there is none that is not short
+_SHORT = 1e-6  # s: over a shorter step, differences of the surfaces are lost in rounding
 
 
 ContactOf = Callable[[Case, Tribofilms], MeanContact]  # of a case and of both tribofilms
@@ -55,11 +56,12 @@ def advance(
             after, outputs = _stepped(now, state, step, contact_of)
         warm = temperatures_after(now, after.outputs, step)
         state, left = changed(after, temperatures=warm), left - step
-    rates = [(out - old) / dt for out, old in zip((outputs.wear_volume_1, outputs.wear_volume_2), before, strict=True)]
+    if dt >= _SHORT:
+        volumes = outputs.wear_volume_1, outputs.wear_volume_2
+        rates = [(out - old) / dt for out, old in zip(volumes, before, strict=True)]
+        outputs = changed(outputs, wear_rate_1=rates[0], wear_rate_2=rates[1])
     bodies = case.warmed(state.temperatures).op.bodies
-    outputs = changed(
-        outputs, wear_rate_1=rates[0], wear_rate_2=rates[1], temperature_1=bodies[0], temperature_2=bodies[1]
-    )
+    outputs = changed(outputs, temperature_1=bodies[0], temperature_2=bodies[1])
     return changed(state, outputs=outputs), outputs
 
 
@@ -79,27 +81,29 @@ def _stepped(case: Case, state: ContactState, dt: float, contact_of: ContactOf) 
     """Return the state and outputs after `dt` [s] at held bulk temperatures."""
     before = state.means or means_of(case.scene, state)
     means, films, left = before, tribofilms_of(before), dt
-    classes: Classes | None = _classes(case, state)
-    harm: Harm | None = None
+    classes = classes_at(case.scene, state)
     contact = contact_of(case, films)
-    speed = 0.0  # at which the surfaces change [m/s]
+    harm = None if classes is None else harm_by(case, contact)
+    step, speed = 0.0, 0.0  # of the last part [s]; at which the surfaces change [m/s]
     while left > 0.0:
-        start, used = means, contact
+        start, newer = means, False
         step, means, films, speed = _substep(case, contact, start, left)
         left -= step
         if _has_changed(case, contact, films):
-            contact = contact_of(case, films)
+            contact, newer = contact_of(case, films), True
             settled = _settled(case, start, means, _evolved(case, contact, start, step))
             if settled is not means:
                 means, films = settled, tribofilms_of(settled)
                 contact = contact_of(case, films)
-        if classes is not None:
-            harm = harm_by(case, used, harm)
+        if classes is not None and harm is not None:
             classes = fatigued(case.scene, classes, harm, start, means)
-    if dt > 0.0:
+            if newer:
+                harm = harm_by(case, contact)
+    if step < _SHORT:
+        speed = _substep(case, contact, means, _TRIAL)[3]
+    if dt >= _SHORT:
         rates = [(now.worn - then.worn) / dt for now, then in zip(means, before, strict=True)]
     else:
-        speed = _substep(case, contact, means, _TRIAL)[3]
         pairs = zip(case.sides, films, strict=True)
         rates = [wear_rate(case, side, contact, film.thickness, film.oxide) for side, film in pairs]
     if not math.isfinite(contact.solid + contact.fluid + contact.gap):
@@ -110,14 +114,13 @@ def _stepped(case: Case, state: ContactState, dt: float, contact_of: ContactOf) 
         )
     below = {}
     if case.scene.stress.samples:
-        below = outputs_below(case, state.outputs, harm_by(case, contact, harm), classes, means)
+        below = outputs_below(case, state.outputs, harm or harm_by(case, contact), classes, means)
     outputs = outputs_of(case, state.outputs, contact, means, films, rates, speed, below)
     return changed(state, time=state.time + dt, means=means, classes=classes, outputs=outputs, solved_for=None), outputs
 
 
-def _classes(case: Case, state: ContactState) -> Classes | None:
+def classes_at(scene: Scene, state: ContactState) -> Classes | None:
     """Return the damage of a state by classes; None where nothing damages."""
-    scene = case.scene
     if not (scene.stress.samples and scene.fatigue.damages):
         return state.classes
     return state.classes or classes_of(scene, state)

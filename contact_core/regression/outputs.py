@@ -14,6 +14,7 @@ from ..state import (
     flag_of_errors,
     flag_of_pits,
     flag_of_scuffing,
+    flag_of_wear,
     flags_of_tribofilm,
 )
 from .contact import MeanContact
@@ -100,6 +101,7 @@ def outputs_of(
         range_flags=_flags(case, contact)
         | int(flag_of_errors(errors, case.scene.control.accuracy))
         | int(flag_of_scuffing(risk))
+        | int(flag_of_wear(case.unit_hertz.a * case.growth[0], first.wear, second.wear))
         | int(
             flag_of_pits(*(below.get(f"profile_loss_{i}", mean.wear) - mean.wear for i, mean in enumerate(means, 1)))
         ),

@@ -30,6 +30,13 @@ class SelfAffine(RoughBody):
         ("C(q) ∝ max(q, 2π/λ_r)^{−2−2H}   for   q ≤ 2π/λ_c,   else 0",),
         "Gaussian heights of a power C per area of wave numbers q, λ_r being the roll-off and λ_c the cut-off; the "
         "same on every grid but for waves that are shorter than two of its nodes.",
+        symbols={
+            "C": "power per area of wave numbers [m4]",
+            "q": "wave number [1/m]",
+            "λ_r": "roll_off",
+            "λ_c": "cut_off",
+            "H": "hurst",
+        },
     )
     reach: ClassVar[float] = 1.0  # in units of the cut-off's wave number
 

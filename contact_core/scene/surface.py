@@ -130,6 +130,12 @@ class Surface(RoughBody):
     equations: ClassVar[Equations] = Equations(
         ("⟨z(0, 0) z(x, y)⟩ = Rq^2 exp[−(x/l_x)^2 − (y/l_y)^2]",),
         "Gaussian heights z, the same on every grid but for waves that are shorter than two of its nodes.",
+        symbols={
+            "z": "height [m]",
+            "Rq": "rq",
+            "l_x": "correlation_length",
+            "l_y": "correlation_length_across",
+        },
     )
     # modes are kept up to k l = 9: what lies beyond holds exp(-81/4) = 1.6e-9 of the Gaussian spectrum's power
     reach: ClassVar[float] = 9.0

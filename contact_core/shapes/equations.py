@@ -6,8 +6,10 @@ HALF_SPACE = Equations(
     ("d(x, y) = 2/(π E′) ∬ p(x′, y′) [(x − x′)^2 + (y − y′)^2]^{−1/2} dx′ dy′",),
     "p is the pressure of oil and solids together.",
     title="Elastic deformation (half space)",
+    source="Love 1929, doi:10.1098/rsta.1929.0009",
 )
 LOAD_BALANCE = Equations(("W = ∬ p dx dy",), "It determines the rigid gap h0.", title="Load balance")
+PARABOLAS = "Hertz 1882; Johnson, Contact Mechanics, 1985, doi:10.1017/CBO9781139171731, section 4.1"  # of the gap
 REDUCED = (
     "σ the present composite rms roughness. Heating (heat.inlet_shear), thinning (lubricant.flow) in the inlet "
     "and starvation (lubricant.supply) reduce the film."

@@ -10,12 +10,20 @@ from ..laws.load_sharing import FittedSharing, LineSharing
 from ..quantities import parameter
 from ..reference import Hertz, SmoothLine, dowson_line, hertz_line, line_film, rolling_line
 from .base import Array, Bodies, GridRecord, Shape, Viscosity
-from .equations import REDUCED, ROLLING_NOTE
+from .equations import PARABOLAS, REDUCED, ROLLING_NOTE
 
 SMOOTH_LINE = Equations(
     ("h_s = R_x U^{1/2} H(M, L),   Z = h_s/σ",),
     "H is Moes' formula of line contacts over all regimes, " + REDUCED,
     title="Film of the smooth bodies",
+    source="Moes, Wear 159 (1992) 57; Venner & Lubrecht, Multilevel Methods in Lubrication, Elsevier 2000",
+    symbols={
+        "U": "speed parameter 2 η_0 u_e/(E′ R_x) [1]",
+        "H": "film thickness in Moes' units [1]",
+        "M": "Moes' parameter of load [1]",
+        "L": "Moes' parameter of the lubricant [1]",
+        "Z": "film of the smooth bodies by formula over composite rms roughness [1]",
+    },
 )
 ROLLING_LINE = Equations(
     (
@@ -24,6 +32,11 @@ ROLLING_LINE = Equations(
     ),
     ROLLING_NOTE + " b is the face width.",
     title="Rolling resistance",
+    source="Biboulet & Houpert, Proc. IMechE J 224 (2010) 765, doi:10.1243/13506501JET790",
+    symbols={
+        "U": "speed parameter 2 η_0 u_e/(E′ R_x) [1]",
+        "b": "face width, geometry.face_width [m]",
+    },
 )
 
 
@@ -106,11 +119,12 @@ class LineGeometry(Bodies):
     """A line contact whose ends are far away. Methods as in `Geometry`."""
 
     name: ClassVar[str] = "line"
-    source: ClassVar[str] = ""
+    source: ClassVar[str] = PARABOLAS
     equations: ClassVar[Equations] = Equations(
         ("g = x^2/(2 R_x)",),
         "A line without ends. One period along y is solved and represents all of face_width, which load and outputs "
         "refer to.",
+        symbols={"R_x": "radius_x"},
     )
     deformation: ClassVar[Equations] = Equations(
         (
@@ -121,9 +135,24 @@ class LineGeometry(Bodies):
         "depends on a datum: dk makes the means over a period deform as in the second line, relative to a face width "
         "b away.",
         title="Elastic deformation (half space)",
+        source="Johnson, Contact Mechanics, 1985, doi:10.1017/CBO9781139171731, section 2.3",
+        symbols={
+            "w": "period along y [m]",
+            "k": "number of a period [1]",
+            "d_k": "datum of a period [1/m]",
+            "d̄": "mean deformation of a row of nodes along y [m]",
+            "p̄": "mean pressure of a row of nodes along y [Pa]",
+            "b": "face width, geometry.face_width [m]",
+        },
     )
     load_balance: ClassVar[Equations] = Equations(
-        ("W = (b/w) ∬ p dx dy",), "Over one period. It determines the rigid gap h0.", title="Load balance"
+        ("W = (b/w) ∬ p dx dy",),
+        "Over one period. It determines the rigid gap h0.",
+        title="Load balance",
+        symbols={
+            "w": "period along y [m]",
+            "b": "face width, geometry.face_width [m]",
+        },
     )
     smooth_film: ClassVar[Equations] = SMOOTH_LINE
     rolling: ClassVar[Equations] = ROLLING_LINE

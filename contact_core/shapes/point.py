@@ -9,8 +9,8 @@ from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing
 from ..quantities import input_parameter
 from ..reference import Hertz, SmoothContact, hamrock_dowson, hertz_point, nvm_film, rolling_point
-from .base import Array, Bodies, GridRecord, Shape, Viscosity
-from .equations import HALF_SPACE, LOAD_BALANCE, REDUCED, ROLLING_NOTE
+from .base import Array, Bodies, GridRecord, Shape, Viscosity, combined
+from .equations import HALF_SPACE, LOAD_BALANCE, PARABOLAS, REDUCED, ROLLING_NOTE
 
 
 @dataclass(frozen=True)
@@ -113,14 +113,26 @@ class PointGeometry(Bodies):
     """A circular or elliptical contact. Methods as in `Geometry`."""
 
     name: ClassVar[str] = "point"
-    source: ClassVar[str] = ""
-    equations: ClassVar[Equations] = Equations(("g = x^2/(2 R_x) + y^2/(2 R_y)",), "A circular or elliptical contact.")
+    source: ClassVar[str] = PARABOLAS
+    equations: ClassVar[Equations] = Equations(
+        ("g = x^2/(2 R_x) + y^2/(2 R_y)",),
+        "Parabolas along both axes.",
+        symbols={"R_x": "radius_x", "R_y": "radius_y"},
+    )
     deformation: ClassVar[Equations] = HALF_SPACE
     load_balance: ClassVar[Equations] = LOAD_BALANCE
     smooth_film: ClassVar[Equations] = Equations(
         ("h_s = R_x U^{1/2} H(M, L, R_x/R_y),   Z = h_s/σ",),
         "H is the formula of Nijenbanning, Venner and Moes over all regimes, " + REDUCED,
         title="Film of the smooth bodies",
+        source="Nijenbanning, Venner & Moes 1994, doi:10.1016/0043-1648(94)90150-3",
+        symbols={
+            "U": "speed parameter 2 η_0 u_e/(E′ R_x) [1]",
+            "H": "film thickness in Moes' units [1]",
+            "M": "Moes' parameter of load [1]",
+            "L": "Moes' parameter of the lubricant [1]",
+            "Z": "film of the smooth bodies by formula over composite rms roughness [1]",
+        },
     )
     rolling: ClassVar[Equations] = Equations(
         (
@@ -130,6 +142,10 @@ class PointGeometry(Bodies):
         ),
         ROLLING_NOTE + " a and b are Hertz's half widths.",
         title="Rolling resistance",
+        source="Biboulet & Houpert, Proc. IMechE J 224 (2010) 777, doi:10.1243/13506501JET791",
+        symbols={
+            "U": "speed parameter 2 η_0 u_e/(E′ R_x) [1]",
+        },
     )
     film_formula: ClassVar[str] = "Nijenbanning, Venner and Moes"
     not_modelled: ClassVar[tuple[str, ...]] = ()
@@ -139,7 +155,7 @@ class PointGeometry(Bodies):
     bounded_across: ClassVar[bool] = True
     lumped: ClassVar[bool] = True
 
-    radius_y: float = input_parameter("radius_y")
+    radius_y: float = input_parameter("radius_y", text=combined("y"))
 
     def shape(self, radius_x: float | None = None, radius_y: float | None = None) -> Shape:
         """Return the shape with these radii [m], or with the geometry's own."""

@@ -12,7 +12,7 @@ from ..laws.load_sharing import FittedSharing, LineSharing
 from ..quantities import parameter
 from ..reference import Hertz
 from .base import Array, Bodies, GridRecord, Shape
-from .equations import HALF_SPACE, LOAD_BALANCE
+from .equations import HALF_SPACE, LOAD_BALANCE, PARABOLAS
 from .line import ROLLING_LINE, SMOOTH_LINE, Line, no_radius_y
 
 _DEEPEST = 0.1  # drop of an end, in radii: no deformation reaches that far
@@ -44,10 +44,13 @@ class RollerGeometry(Bodies):
     """A line contact with ends. Methods as in `Geometry`."""
 
     name: ClassVar[str] = "roller"
-    source: ClassVar[str] = ""
+    source: ClassVar[str] = PARABOLAS
     equations: ClassVar[Equations] = Equations(
         ("g = x^2/(2 R_x) + P(y)",),
         "A line with ends, relieved by the profile P; load and outputs refer to the whole face_width b.",
+        symbols={
+            "P": "drop of the profile [m]",
+        },
     )
     deformation: ClassVar[Equations] = HALF_SPACE
     load_balance: ClassVar[Equations] = LOAD_BALANCE

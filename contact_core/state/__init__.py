@@ -16,7 +16,15 @@ Records are frozen: a step returns new ones.
 from .below import Below
 from .classes import Classes
 from .error import Error
-from .outputs import Outputs, RangeFlag, flag_of_errors, flag_of_pits, flag_of_scuffing, flags_of_tribofilm
+from .outputs import (
+    Outputs,
+    RangeFlag,
+    flag_of_errors,
+    flag_of_pits,
+    flag_of_scuffing,
+    flag_of_wear,
+    flags_of_tribofilm,
+)
 from .solved import Solved
 from .state import Body, ContactState, Mean, changed, initial_state
 
@@ -34,6 +42,7 @@ __all__ = [
     "flag_of_errors",
     "flag_of_pits",
     "flag_of_scuffing",
+    "flag_of_wear",
     "flags_of_tribofilm",
     "initial_state",
 ]

@@ -50,6 +50,13 @@ class RangeFlag(IntFlag):
             "asperities bear"
         ),
     )
+    WORN_SHAPE = (
+        32768,
+        (
+            "wear is deeper than a tenth of the half width of the smooth contact: the bodies have another shape by now "
+            "than the regression level gives them"
+        ),
+    )
 
 
 if TYPE_CHECKING:
@@ -88,6 +95,14 @@ def flag_of_scuffing(ratio: float) -> RangeFlag:
 def flag_of_pits(*broken: float) -> RangeFlag:
     """Return PITTED where anything has broken out of a body, by area or depth."""
     return RangeFlag.PITTED if any(each > 0.0 for each in broken) else RangeFlag(0)
+
+
+_DEEP = 0.1  # of the half width: the flat on a body of 50 half widths' radius is about three times as wide as it
+
+
+def flag_of_wear(half_width: float, *depths: float) -> RangeFlag:
+    """Return WORN_SHAPE where wear [m] is too deep for a contact of that half width [m], which is 0 without load."""
+    return RangeFlag.WORN_SHAPE if 0.0 < _DEEP * half_width < max(depths) else RangeFlag(0)
 
 
 _ASKED = 0.5  # accuracy of a scene that asks for none

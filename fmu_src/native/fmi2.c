@@ -12,6 +12,10 @@
     Instance *instance = component; \
     if (!instance) return fmi2Error
 
+/* So does one that gives NULL for an array that is not empty, or for a place where to write. */
+#define GIVEN(call, count, first, second) \
+    if (instance_check_arrays(instance, call, count, first, second) != OK) return fmi2Error
+
 static fmi2Status unsupported(fmi2Component component, const char *what) {
     INSTANCE(component);
     return (fmi2Status)log_error(instance, "%s is not supported: see the capabilities in modelDescription.xml.", what);
@@ -37,6 +41,7 @@ static void deliver(const Host *host, const char *name, Status status, const cha
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nCategories,
                                const fmi2String categories[]) {
     INSTANCE(c);
+    GIVEN("SetDebugLogging", nCategories, categories, categories);
     log_choose(instance, loggingOn, nCategories, categories);
     return fmi2OK;
 }
@@ -96,6 +101,7 @@ fmi2Status fmi2Reset(fmi2Component c) {
 #define GET_AND_SET(Type, KIND, TO_TYPE)                                                                       \
     fmi2Status fmi2Get##Type(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2##Type value[]) { \
         INSTANCE(c);                                                                                           \
+        GIVEN("Get" #Type, nvr, vr, value);                                                                    \
         for (size_t i = 0; i < nvr; i++) {                                                                     \
             double found;                                                                                      \
             if (instance_get(instance, KIND, vr[i], &found) != OK) return fmi2Error;                           \
@@ -106,6 +112,7 @@ fmi2Status fmi2Reset(fmi2Component c) {
     fmi2Status fmi2Set##Type(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,                       \
                              const fmi2##Type value[]) {                                                       \
         INSTANCE(c);                                                                                           \
+        GIVEN("Set" #Type, nvr, vr, value);                                                                    \
         for (size_t i = 0; i < nvr; i++)                                                                       \
             if (instance_check(instance, KIND, vr[i], value[i]) != OK) return fmi2Error;                       \
         for (size_t i = 0; i < nvr; i++) instance_store(instance, vr[i], value[i]);                            \
@@ -119,6 +126,7 @@ GET_AND_SET(Boolean, BOOLEAN, instance_integer)
 
 fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2String value[]) {
     INSTANCE(c);
+    GIVEN("GetString", nvr, vr, value);
     for (size_t i = 0; i < nvr; i++)
         if (instance_get_text(instance, vr[i], &value[i]) != OK) return fmi2Error;
     return fmi2OK;
@@ -126,6 +134,7 @@ fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t 
 
 fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2String value[]) {
     INSTANCE(c);
+    GIVEN("SetString", nvr, vr, value);
     for (size_t i = 0; i < nvr; i++)
         if (instance_check_text(instance, vr[i], value[i]) != OK) return fmi2Error;
     return fmi2OK;
@@ -135,6 +144,8 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
                                         const fmi2ValueReference known[], size_t nKnown, const fmi2Real dvKnown[],
                                         fmi2Real dvUnknown[]) {
     INSTANCE(c);
+    GIVEN("GetDirectionalDerivative", nUnknown, unknown, dvUnknown);
+    GIVEN("GetDirectionalDerivative", nKnown, known, dvKnown);
     return (fmi2Status)instance_forward(instance, unknown, nUnknown, known, nKnown, dvKnown, dvUnknown);
 }
 
@@ -142,6 +153,7 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
     INSTANCE(c);
+    GIVEN("GetFMUstate", 1, state, state);
     return (fmi2Status)instance_save(instance, state);
 }
 
@@ -157,16 +169,20 @@ fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size) {
     INSTANCE(c);
+    GIVEN("SerializedFMUstateSize", 1, size, size);
     return (fmi2Status)instance_size(instance, state, size);
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
     INSTANCE(c);
+    GIVEN("SerializeFMUstate", size, bytes, bytes);
     return (fmi2Status)instance_write(instance, state, (unsigned char *)bytes, size);
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state) {
     INSTANCE(c);
+    GIVEN("DeSerializeFMUstate", size, bytes, bytes);
+    GIVEN("DeSerializeFMUstate", 1, state, state);
     return (fmi2Status)instance_read(instance, (const unsigned char *)bytes, size, state);
 }
 
@@ -208,6 +224,7 @@ NO_STATUS(StringStatus, fmi2String)
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value) {
     INSTANCE(c);
     if (kind != fmi2LastSuccessfulTime) return fmi2Discard;
+    GIVEN("GetRealStatus", 1, value, value);
     *value = instance->now.time;
     return fmi2OK;
 }
@@ -215,6 +232,7 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Rea
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value) {
     INSTANCE(c);
     if (kind != fmi2Terminated) return fmi2Discard;
+    GIVEN("GetBooleanStatus", 1, value, value);
     *value = fmi2False;
     return fmi2OK;
 }

@@ -13,6 +13,10 @@
     Instance *instance = component; \
     if (!instance) return fmi3Error
 
+/* A host that gives NULL for an array that is not empty, or for a place where to write gets an error. */
+#define GIVEN(call, count, first, second) \
+    if (instance_check_arrays(instance, call, count, first, second) != OK) return fmi3Error
+
 const char *fmi3GetVersion(void) { return fmi3Version; }
 
 /* life */
@@ -25,6 +29,7 @@ static void deliver(const Host *host, const char *name, Status status, const cha
 fmi3Status fmi3SetDebugLogging(fmi3Instance c, fmi3Boolean loggingOn, size_t nCategories,
                                const fmi3String categories[]) {
     INSTANCE(c);
+    GIVEN("SetDebugLogging", nCategories, categories, categories);
     log_choose(instance, loggingOn, nCategories, categories);
     return fmi3OK;
 }
@@ -111,6 +116,7 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean toleranceDefi
                              size_t nValues) {                                                                  \
         INSTANCE(c);                                                                                            \
         COUNTS(nvr, nValues);                                                                                   \
+        GIVEN("Get" #Type, nvr, vr, value);                                                                     \
         for (size_t i = 0; i < nvr; i++) {                                                                      \
             double found;                                                                                       \
             if (instance_get(instance, KIND, vr[i], &found) != OK) return fmi3Error;                            \
@@ -122,6 +128,7 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean toleranceDefi
                              size_t nValues) {                                                                  \
         INSTANCE(c);                                                                                            \
         COUNTS(nvr, nValues);                                                                                   \
+        GIVEN("Set" #Type, nvr, vr, value);                                                                     \
         for (size_t i = 0; i < nvr; i++)                                                                        \
             if (instance_check(instance, KIND, vr[i], value[i]) != OK) return fmi3Error;                        \
         for (size_t i = 0; i < nvr; i++) instance_store(instance, vr[i], value[i]);                             \
@@ -137,6 +144,7 @@ GET_AND_SET(Boolean, BOOLEAN, TRUTH)
 fmi3Status fmi3GetString(fmi3Instance c, const fmi3ValueReference vr[], size_t nvr, fmi3String value[], size_t nValues) {
     INSTANCE(c);
     COUNTS(nvr, nValues);
+    GIVEN("GetString", nvr, vr, value);
     for (size_t i = 0; i < nvr; i++)
         if (instance_get_text(instance, vr[i], &value[i]) != OK) return fmi3Error;
     return fmi3OK;
@@ -146,6 +154,7 @@ fmi3Status fmi3SetString(fmi3Instance c, const fmi3ValueReference vr[], size_t n
                          size_t nValues) {
     INSTANCE(c);
     COUNTS(nvr, nValues);
+    GIVEN("SetString", nvr, vr, value);
     for (size_t i = 0; i < nvr; i++)
         if (instance_check_text(instance, vr[i], value[i]) != OK) return fmi3Error;
     return fmi3OK;
@@ -157,7 +166,7 @@ static Status count_dependencies(Instance *it, fmi3ValueReference reference, siz
     if (reference >= MODEL_VARIABLES_COUNT)
         return log_error(it, "There is no variable with value reference %lu.", (unsigned long)reference);
     Role role = MODEL_VARIABLES[reference].role;
-    int depends = role != INPUT && role != FIXED && role != TUNABLE && role != TIME && it->now.phase < STEPPING;
+    int depends = role != INPUT && role != FIXED && role != TIME && it->now.phase < STEPPING;
     *count = depends ? INPUTS : 0;
     return OK;
 }
@@ -165,6 +174,7 @@ static Status count_dependencies(Instance *it, fmi3ValueReference reference, siz
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance c, fmi3ValueReference valueReference,
                                                size_t *nDependencies) {
     INSTANCE(c);
+    GIVEN("GetNumberOfVariableDependencies", 1, nDependencies, nDependencies);
     return (fmi3Status)count_dependencies(instance, valueReference, nDependencies);
 }
 
@@ -172,11 +182,13 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance c, fmi3ValueReference depend
                                        fmi3ValueReference independents[], size_t elementIndicesOfIndependents[],
                                        fmi3DependencyKind dependencyKinds[], size_t nDependencies) {
     INSTANCE(c);
-    size_t count, k = 0;
+    size_t count = 0, k = 0;
     if (count_dependencies(instance, dependent, &count) != OK) return fmi3Error;
     if (nDependencies != count)
         return (fmi3Status)log_error(instance, "The variable has %lu dependencies, not %lu.", (unsigned long)count,
                                      (unsigned long)nDependencies);
+    GIVEN("GetVariableDependencies", count, elementIndicesOfDependent, elementIndicesOfIndependents);
+    GIVEN("GetVariableDependencies", count, independents, dependencyKinds);
     for (uint32_t i = 0; k < count; i++) {
         if (MODEL_VARIABLES[i].role != INPUT) continue;
         elementIndicesOfDependent[k] = elementIndicesOfIndependents[k] = 0; /* all of them are scalars */
@@ -192,6 +204,8 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance c, const fmi3ValueReference
     INSTANCE(c);
     COUNTS(nKnowns, nSeed);
     COUNTS(nUnknowns, nSensitivity);
+    GIVEN("GetDirectionalDerivative", nUnknowns, unknowns, sensitivity);
+    GIVEN("GetDirectionalDerivative", nKnowns, knowns, seed);
     return (fmi3Status)instance_forward(instance, unknowns, nUnknowns, knowns, nKnowns, seed, sensitivity);
 }
 
@@ -201,6 +215,8 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance c, const fmi3ValueReference unk
     INSTANCE(c);
     COUNTS(nUnknowns, nSeed);
     COUNTS(nKnowns, nSensitivity);
+    GIVEN("GetAdjointDerivative", nUnknowns, unknowns, seed);
+    GIVEN("GetAdjointDerivative", nKnowns, knowns, sensitivity);
     return (fmi3Status)instance_backward(instance, unknowns, nUnknowns, knowns, nKnowns, seed, sensitivity);
 }
 
@@ -208,6 +224,7 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance c, const fmi3ValueReference unk
 
 fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state) {
     INSTANCE(c);
+    GIVEN("GetFMUState", 1, state, state);
     return (fmi3Status)instance_save(instance, state);
 }
 
@@ -223,16 +240,20 @@ fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state) {
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size) {
     INSTANCE(c);
+    GIVEN("SerializedFMUStateSize", 1, size, size);
     return (fmi3Status)instance_size(instance, state, size);
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
     INSTANCE(c);
+    GIVEN("SerializeFMUState", size, bytes, bytes);
     return (fmi3Status)instance_write(instance, state, bytes, size);
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state) {
     INSTANCE(c);
+    GIVEN("DeserializeFMUState", size, bytes, bytes);
+    GIVEN("DeserializeFMUState", 1, state, state);
     return (fmi3Status)instance_read(instance, bytes, size, state);
 }
 
@@ -263,6 +284,8 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 currentCommunicationPoint, fmi
     INSTANCE(c);
     (void)noSetFMUStatePriorToCurrentPoint;
     double time = currentCommunicationPoint, size = communicationStepSize;
+    GIVEN("DoStep", 1, eventHandlingNeeded, terminateSimulation);
+    GIVEN("DoStep", 1, earlyReturn, lastSuccessfulTime);
     *eventHandlingNeeded = *terminateSimulation = *earlyReturn = false;
     *lastSuccessfulTime = instance->now.time;
     if (instance_check_step(instance, time, size) != OK) return fmi3Error;

@@ -42,6 +42,13 @@ Status instance_may_change(Instance *it, const char *call) {
     return it->asking || it->terminated || it->now.phase == CONFIGURING ? out_of_turn(it, call) : OK;
 }
 
+Status instance_check_arrays(const Instance *it, const char *call, size_t count, const void *first,
+                             const void *second) {
+    if (!count || (first && second)) return OK;
+    return log_error(it, "%s%s was called with NULL in place of %lu value%s. Nothing was done.", it->host.prefix, call,
+                     (unsigned long)count, count == 1 ? "" : "s");
+}
+
 /* the contact */
 
 /* `valid` becomes false; state and outputs stay as they are. */

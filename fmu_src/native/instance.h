@@ -99,6 +99,8 @@ Status instance_refresh(Instance *it);
 /* True if each input can be used; each output is finite. */
 int inputs_usable(const contact_inputs *inputs);
 int outputs_finite(const contact_outputs *outputs);
+/* OK, or ERROR with an entry in the log if one of both arrays of a call is NULL, and not empty. */
+Status instance_check_arrays(const Instance *it, const char *call, size_t count, const void *first, const void *second);
 /* OK, or ERROR with an entry in the log if the host may change nothing now. */
 Status instance_may_change(Instance *it, const char *call);
 

@@ -12,7 +12,7 @@
 typedef enum { REAL, INTEGER, BOOLEAN, STRING } Kind;
 
 /* DERIVATIVE: an output that contact_derivatives makes; VALID, FIDELITY_USED: outputs that the runtime makes. */
-typedef enum { INPUT, FIXED, TUNABLE, OUTPUT, DERIVATIVE, VALID, FIDELITY_USED, TIME } Role;
+typedef enum { INPUT, FIXED, OUTPUT, DERIVATIVE, VALID, FIDELITY_USED, TIME } Role;
 
 typedef enum { OF_WARNINGS, OF_ERRORS, OF_VALIDITY, OF_SOLVER, CATEGORIES } Category;
 
@@ -24,7 +24,7 @@ typedef enum { OF_WARNINGS, OF_ERRORS, OF_VALIDITY, OF_SOLVER, CATEGORIES } Cate
 enum {
     INPUTS = sizeof(contact_inputs) / sizeof(double),
     OUTPUTS = sizeof(contact_outputs) / sizeof(double),
-    TOKEN = 40 /* bytes of the longest token, NUL included */
+    TOKEN = 40 /* bytes of the longest of both tokens, NUL included */
 };
 
 typedef struct {
@@ -55,6 +55,7 @@ typedef struct {
 } Derivative;
 
 extern const char MODEL_TOKEN[TOKEN];
+extern const char MODEL_STATES[TOKEN]; /* in stored states: the same by FMI 2 and FMI 3 */
 extern const double MODEL_FIDELITY; /* level that gives the outputs */
 extern const int MODEL_FOLLOWS;     /* outputs follow inputs without a step between */
 extern const Variable MODEL_VARIABLES[];

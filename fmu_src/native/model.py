@@ -29,6 +29,7 @@ _FILE = """/* Written by tribofmu for one scene; see model.h. */
 #include "model.h"
 
 const char MODEL_TOKEN[TOKEN] = {token};
+const char MODEL_STATES[TOKEN] = {states};
 
 const double MODEL_FIDELITY = {fidelity};
 const int MODEL_FOLLOWS = {follows};
@@ -61,21 +62,24 @@ const char *const MODEL_CATEGORIES[CATEGORIES] = {{
 """
 
 
-def model_c(table: Sequence[Variable], token: str, *, ranges: bool = True) -> str:
+def model_c(table: Sequence[Variable], token: str, states: str, *, ranges: bool = True) -> str:
     """Return the text of model.c for an FMU's variables, in order of value references, and its guid or token.
 
+    `states`: token of stored states, which an FMU with the same one can restore.
     `ranges`: inputs outside theirs are refused; else all finite ones are taken.
 
     Raises ValueError for what the sources in C cannot hold: a long token, an input without a range, a text that is not
     empty at the start.
     """
-    if len(token) > _LONGEST_TOKEN:
-        raise ValueError(f"The token {token} is longer than {_LONGEST_TOKEN} characters. Give a UUID.")
+    for text in (token, states):
+        if len(text) > _LONGEST_TOKEN:
+            raise ValueError(f"The token {text} is longer than {_LONGEST_TOKEN} characters. Give a UUID.")
     inputs = [v for v in table if v.causality == "input"]
     derivatives = [v.name for v in table if v.name.startswith(_DERIVATIVE)]
     fidelity = next((v.start for v in table if v.name == FIDELITY), 0.0)
     return _FILE.format(
         token=c_text(token),
+        states=c_text(states),
         fidelity=_number(fidelity),
         follows=int(any(v.direct for v in table)),
         variables=_rows(_variable(v) for v in table),
@@ -139,7 +143,7 @@ def _role(v: Variable) -> str:
     if v.causality == "input":
         return "INPUT"
     if v.causality == "parameter":
-        return "TUNABLE" if v.variability == "tunable" else "FIXED"
+        return "FIXED"
     if v.causality == "independent":
         return "TIME"
     return _OF_RUNTIME.get(v.name, "DERIVATIVE" if v.name.startswith(_DERIVATIVE) else "OUTPUT")

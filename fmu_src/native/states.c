@@ -117,7 +117,7 @@ Status instance_write(Instance *it, void *state, unsigned char *bytes, size_t si
     if (size < instance_state_size())
         return log_error(it, "The FMU state has %lu bytes; there is room for %lu only.",
                          (unsigned long)instance_state_size(), (unsigned long)size);
-    memcpy(header.token, MODEL_TOKEN, TOKEN);
+    memcpy(header.token, MODEL_STATES, TOKEN);
     memcpy(bytes, &header, sizeof header);
     memcpy(bytes + sizeof header, &((const State *)state)->moment, sizeof(Moment));
     header.checksum = checksum(bytes + UNSUMMED, instance_state_size() - UNSUMMED);
@@ -143,7 +143,7 @@ Status instance_read(Instance *it, const unsigned char *bytes, size_t size, void
     if (size < sizeof header || header.magic != MAGIC)
         return refuse(it, "The stored FMU state is not one that this version of tribofmu writes for a native FMU. Give one "
                           "that this FMU has serialised.");
-    if (memcmp(header.token, MODEL_TOKEN, TOKEN) != 0 || header.size != sizeof moment)
+    if (memcmp(header.token, MODEL_STATES, TOKEN) != 0 || header.size != sizeof moment)
         return refuse(it, "The FMU state belongs to another FMU, or is damaged. Use one that this FMU has serialised.");
     if (size != instance_state_size() || header.checksum != checksum(bytes + UNSUMMED, size - UNSUMMED))
         return refuse(it, "The stored FMU state is damaged: it was cut or changed. Use an earlier one.");

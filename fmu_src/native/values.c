@@ -27,15 +27,14 @@ static double value_of(const Instance *it, const Variable *v) {
     case VALID: return it->now.valid;
     case FIDELITY_USED: return it->now.fidelity_used;
     case TIME: return it->now.time;
-    case FIXED:
-    case TUNABLE: break;
+    case FIXED: break;
     }
     return v->start;
 }
 
 /* Settle or derive if the variable needs it. A warning is about the model, and logged: the values are valid. */
 static void renew(Instance *it, const Variable *v) {
-    if (v->role == INPUT || v->role == FIXED || v->role == TUNABLE) return;
+    if (v->role == INPUT || v->role == FIXED) return;
     instance_refresh(it);
     if (v->role == DERIVATIVE) instance_derive(it);
 }
@@ -59,7 +58,7 @@ static Status check_role(Instance *it, const Variable *v) {
     if (v->role == TIME)
         return log_error(it, "%s is the independent variable: %s%s and %sDoStep set it.", v->name, it->host.prefix,
                          it->host.experiment, it->host.prefix);
-    if (v->role != INPUT && v->role != FIXED && v->role != TUNABLE)
+    if (v->role != INPUT && v->role != FIXED)
         return log_error(it, "%s is an output and cannot be set.", v->name);
     if (v->role == FIXED && it->now.phase >= STEPPING)
         return log_error(it, "%s is a fixed parameter: after initialisation it cannot be set.", v->name);

@@ -17,7 +17,7 @@ from ..flavours import VERSIONS, Flavour, Version
 from ..runtime import resources
 from ..variables import Variable, variables
 from . import compiled, evidence, fmi2, fmi3, icon, licences, terminals
-from .describe import Model, described
+from .describe import Model, described, variables_of
 from .document.page import documentation
 
 _NATIVE = files("fmu_src.isolated") / "native"
@@ -69,7 +69,7 @@ def build(
         **(evidence.reference(scene) if reference else {}),
         **(compiled.files(scene, fmi, here) if flavour == "native" else _of_slave(scene)),
     }
-    return pack(described(scene, flavour, fmi), variables(scene), own, out, flavour, python, fmi)
+    return pack(described(scene, flavour, fmi), variables_of(scene, flavour), own, out, flavour, python, fmi)
 
 
 def check(flavour: Flavour, fmi: Version) -> None:

@@ -22,7 +22,7 @@ def files(scene: Scene, fmi: Version, here: bool = False) -> dict[str, bytes]:
     sources = native.sources(scene, fmi)
     found = {f"{SOURCES}{name}": data for name, data in sources.items()}
     if fmi == 3:
-        found[f"{SOURCES}buildDescription.xml"] = build_description(sources)
+        found[f"{SOURCES}buildDescription.xml"] = build_description(sources, MODEL)
     return found | native.binaries(sources, fmi, MODEL, here)
 
 
@@ -31,10 +31,10 @@ def to_compile(names: Iterable[str]) -> list[str]:
     return sorted(name for name in names if name.endswith(".c"))
 
 
-def build_description(names: Iterable[str]) -> bytes:
-    """Return buildDescription.xml of FMI 3.0 for the sources."""
+def build_description(names: Iterable[str], model: str) -> bytes:
+    """Return buildDescription.xml of FMI 3.0 for the sources of a model."""
     root = ET.Element("fmiBuildDescription", {"fmiVersion": VERSION})
-    configuration = ET.SubElement(root, "BuildConfiguration", {"modelIdentifier": MODEL})
+    configuration = ET.SubElement(root, "BuildConfiguration", {"modelIdentifier": model})
     listed = ET.SubElement(configuration, "SourceFileSet", {"language": "C99"})
     for name in to_compile(names):
         ET.SubElement(listed, "SourceFile", {"name": name})

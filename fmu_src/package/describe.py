@@ -12,9 +12,10 @@ from contact_core.quantities import measured
 from contact_core.scene import Scene, units
 
 from ..flavours import Flavour, Version
+from ..native.built_in import native_variables
 from ..runtime.guarded import LOG_CATEGORIES
 from ..runtime.resources import MODEL, guid
-from ..variables import Value, Variable
+from ..variables import Value, Variable, variables
 
 INITIAL = {"parameter": "exact", "output": "calculated"}  # other causalities have one kind, which is left out
 
@@ -43,6 +44,11 @@ def described(scene: Scene, flavour: Flavour, version: Version = 2) -> Model:
     if scene.film.tolerance is not None:
         experiment["tolerance"] = scene.film.tolerance
     return Model(MODEL, guid(scene, flavour, version), scene.description, experiment)
+
+
+def variables_of(scene: Scene, flavour: Flavour) -> tuple[Variable, ...]:
+    """Return the variables that the FMU of a scene describes; their order is that of the value references."""
+    return native_variables(scene) if flavour == "native" else variables(scene)
 
 
 def value_text(value: Value) -> str:

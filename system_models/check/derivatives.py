@@ -10,7 +10,7 @@ from lxml import etree
 
 from .instance import Fmu, Instance
 from .rows import again
-from .variables import is_real, magnitude
+from .variables import is_free, is_real, magnitude
 from .verdict import Answer, failed, not_applicable, noted, passed, some
 
 _SHIFTS = (1e-4, 1e-5)  # of an input's magnitude
@@ -40,8 +40,8 @@ def derivatives(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def _pairs(fmu: Fmu, unknowns: Iterable[Any]) -> list[tuple[str, str]]:
-    """Return continuous outputs, each with a continuous input that it depends on directly."""
-    inputs = [v.name for v in fmu.inputs if v.variability == "continuous"]
+    """Return continuous outputs, each with a continuous input that can be moved and that it depends on directly."""
+    inputs = [v.name for v in fmu.inputs if v.variability == "continuous" and is_free(v)]
     outputs = {v.name for v in fmu.outputs if is_real(v) and v.variability == "continuous"}
     return [
         (unknown.variable.name, name)

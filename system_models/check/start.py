@@ -28,7 +28,19 @@ def asked(description: ModelDescription, settings: Iterable[tuple[str, str]]) ->
             found[name] = _value(variable, text)
         except (KeyError, ValueError):
             raise FmuError(f"{name} = '{text}' is no {variable.type}. Correct it in --set.") from None
+        _check_range(variable, found[name])
     return found
+
+
+def _check_range(variable: ModelVariable, value: float | int | str) -> None:
+    """Raise FmuError for a number outside the declared range."""
+    low, high = attribute(variable, "min"), attribute(variable, "max")
+    if isinstance(value, str) or ((low is None or float(low) <= value) and (high is None or value <= float(high))):
+        return
+    if low == high:
+        raise FmuError(f"{variable.name} = {value:g}: this FMU has no other value than {low}. Leave it out of --set.")
+    bounds = [f"at least {low}"] * (low is not None) + [f"at most {high}"] * (high is not None)
+    raise FmuError(f"{variable.name} = {value:g} must be {' and '.join(bounds)}. Correct it in --set.")
 
 
 def _value(variable: ModelVariable, text: str) -> float | int | str:

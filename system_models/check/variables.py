@@ -44,6 +44,12 @@ def clipped(variable: ModelVariable, value: float) -> float:
     return value if high is None else min(value, float(high))
 
 
+def is_free(variable: ModelVariable) -> bool:
+    """Return True unless the declared range is a single value."""
+    low, high = attribute(variable, "min"), attribute(variable, "max")
+    return low is None or high is None or float(low) < float(high)
+
+
 def elsewhere(variable: ModelVariable) -> list[float]:
     """Return the start value moved by the magnitude, up and down, within the declared range."""
     start = float(variable.start or 0.0)

@@ -9,7 +9,7 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
 from .console import add_settings, note, output_folder
-from .scenes import refuse_machine, warn
+from .scenes import refuse_machine, tell_assumed, warn
 
 if TYPE_CHECKING:
     from ..run.map_build import Built, Order
@@ -31,12 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--time", metavar="T", default="30min", help="time after which no more is solved (default: %(default)s)"
     )
-    parser.add_argument(
-        "--processes", metavar="N", type=int, default=1, help="processes that solve histories (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--executor", metavar="dask://HOST:PORT", help="scheduler of a cluster that solves them instead (extra 'dask')"
-    )
+    executor_arguments(parser, "histories")
     for option, text in (
         ("--load", "loads, such as 10:80, in N"),
         ("--entrainment", "entrainment speeds, such as 0.01:1, in m/s"),
@@ -48,6 +43,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_settings(parser, "change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'")
 
 
+def executor_arguments(parser: argparse.ArgumentParser, what: str) -> None:
+    """Add the arguments that say where `what` are solved."""
+    parser.add_argument(
+        "--processes", metavar="N", type=int, default=1, help=f"processes for the {what} (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--executor", metavar="dask://HOST:PORT", help="scheduler of a cluster in their place (extra 'dask')"
+    )
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Make, print and write the map; return the exit code."""
     from ..run import map_build, map_report
@@ -55,14 +60,15 @@ def run(arguments: argparse.Namespace) -> int:
     from ..store.checkpoint import alone
 
     refuse_machine(arguments.scene)
-    scene = Scene.from_toml(arguments.scene, dict(arguments.settings))
+    scene, assumed = Scene.read(arguments.scene, dict(arguments.settings))
+    tell_assumed(assumed)
     given = {name: text for name in OPTIONS if (text := getattr(arguments, name)) is not None}
     order = map_build.Order(
         scene,
         Ranges.of(scene, given),
         _accuracy(arguments.accuracy),
         _seconds(arguments.time),
-        _processes(arguments.processes),
+        processes_of(arguments.processes),
         arguments.executor,
     )
     folder = output_folder(arguments.out, scene.name)
@@ -95,7 +101,8 @@ def _seconds(text: str) -> float:
         raise ContactError(f"--time = '{text}' is not a time such as 90s, 30min or 2h.") from None
 
 
-def _processes(count: int) -> int:
+def processes_of(count: int) -> int:
+    """Return --processes. Raises ContactError for less than 1, or far too many."""
     if not 1 <= count <= 1024:
         raise ContactError(f"--processes = {count} must be at least 1 and at most 1024.")
     return count

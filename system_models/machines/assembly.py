@@ -7,9 +7,11 @@ from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
+from contact_core.errors import SceneError
 from contact_core.quantities import LEVELS, TABLE
 from contact_core.scene import OperatingPoint, Scene, with_values
 from fmu_src.flavours import Flavour
+from fmu_src.native.program import own_radii
 from fmu_src.package.build import build as build_contact
 from fmu_src.variables import FIDELITY
 
@@ -41,6 +43,7 @@ class Contact:
     scene: Scene
     parameters: Mapping[str, Value] = field(default_factory=dict)
     count: str = ""  # output with the number of contacts that it stands for, if that changes
+    moved: tuple[str, ...] = ()  # radii that change during the duty
 
     @property
     def own_scene(self) -> Scene:
@@ -91,12 +94,14 @@ class Assembly:
         `contacts`: their flavour, if not that of the components. `here`: native FMUs for this platform only. Raises
         ContactError for parts that do not fit together, and for a contact that the flavour cannot have.
         """
+        contacts = contacts or flavour
+        if contacts == "native":
+            self._check_radii()
         proposed = {"duration": self.settings["stop_time"], "step_size": self.settings["step_size"]}
         files = {
             name: build_part(part, folder / f"{name}.fmu", flavour, here=here, **proposed)
             for name, part in self.parts.items()
         }
-        contacts = contacts or flavour
         scenes: dict[str, Path] = {}
         for name, contact in self.contacts.items():
             scene = contact.own_scene if contacts == "native" else contact.scene  # native FMUs take no parameters
@@ -107,6 +112,17 @@ class Assembly:
             files[name] = scenes[key]
         own = {f"{name}.{key}": value for name, c in self.contacts.items() for key, value in c.parameters.items()}
         return System(files, self.connections, {**self.parameters, **own}, self.schedule)
+
+    def _check_radii(self) -> None:
+        """Raise SceneError if a radius changes that is built into the native FMU of its contact."""
+        for name, contact in self.contacts.items():
+            for radius in own_radii(contact.own_scene):
+                if radius in contact.moved:
+                    raise SceneError(
+                        f"{name}.{radius} changes during this duty, and a native FMU of a point contact has one value "
+                        "of it. Take --flavour embedded, for an exported file isolated; in Python, the components can "
+                        "be native with contacts = 'isolated'."
+                    )
 
     def inputs_of(self, contact: str) -> list[str]:
         """Return the connected inputs of a contact."""

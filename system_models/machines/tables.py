@@ -5,7 +5,7 @@ from typing import Any
 
 from contact_core.errors import SceneError
 from contact_core.quantities import out_of_range
-from contact_core.scene import Scene
+from contact_core.scene import Assumed, Scene
 from contact_core.scene.toml import build, flat
 
 
@@ -21,8 +21,18 @@ def record(cls: type, table: Mapping[str, Any], name: str) -> Any:
 
 def scene_of(table: Mapping[str, Any]) -> Scene:
     """Return the scene of the table [contact]: the named scene with the changes of the other keys."""
+    return scene_and_assumed(table)[0]
+
+
+def scene_and_assumed(table: Mapping[str, Any]) -> tuple[Scene, tuple[Assumed, ...]]:
+    """Return the same with the values that neither the scene nor the machine gives."""
+    return Scene.read(*contact_of(table))
+
+
+def contact_of(table: Mapping[str, Any]) -> tuple[str, dict[str, str]]:
+    """Return the scene that the table [contact] names, and its changes of it, by dotted key."""
     values = dict(table.get("contact", {}))
     if "scene" not in values:
         raise SceneError("contact.scene is missing. It names a shipped scene, or the path of one.")
     base = str(values.pop("scene"))
-    return Scene.from_toml(base, {key: str(item) for key, item in flat(values).items()})
+    return base, {key: str(item) for key, item in flat(values).items()}

@@ -4,9 +4,11 @@ import inspect
 from collections.abc import Iterator
 from pathlib import Path
 
-from fmu_src.flavours import Flavour
+from fmu_src.flavours import Flavour, Version
+from fmu_src.native.built_in import built_in
 from fmu_src.native.files import binaries
-from fmu_src.package.build import pack
+from fmu_src.package.build import check, pack
+from fmu_src.package.compiled import SOURCES, build_description
 from fmu_src.package.describe import Model
 from fmu_src.package.document.markup import paragraph, plain, table
 from fmu_src.variables import Variable
@@ -21,6 +23,7 @@ def build(
     out: Path,
     flavour: Flavour = "isolated",
     *,
+    fmi: Version = 2,
     python: str | None = None,
     duration: float = 1.0,
     step_size: float = 1e-2,
@@ -28,27 +31,32 @@ def build(
 ) -> Path:
     """Write the FMU of a component to `out` and return it. The same arguments and versions give the same bytes.
 
-    `flavour` and `python`: as for a contact, see `fmu_src.package.build`. `duration` and `step_size` [s] are
+    `flavour`, `fmi` and `python`: as for a contact, see `fmu_src.package.build`. `duration` and `step_size` [s] are
     proposals to its host; `here`: a native FMU for this platform only. Raises SceneError if the component's numbers
-    cannot be used or it has no C, OSError if the file cannot be written or there is no compiler.
+    cannot be used, it has no C or the flavour not this version of FMI, OSError if the file cannot be written or there
+    is no compiler.
     """
+    check(flavour, fmi)
     resources.check(part)
+    listed = built_in(variables(part)) if flavour == "native" else variables(part)
     experiment = {"startTime": 0.0, "stopTime": duration, "stepSize": step_size}
     own = {
-        "documentation/index.html": "\n".join(_page(part, variables(part))).encode(),
-        **_files(part, flavour, here),
+        "documentation/index.html": "\n".join(_page(part, listed)).encode(),
+        **_files(part, flavour, fmi, here),
     }
-    model = Model(part.name, resources.guid(part, flavour), part.text, experiment)
-    return pack(model, variables(part), own, out, flavour, python)
+    model = Model(part.name, resources.guid(part, flavour, fmi), part.text, experiment)
+    return pack(model, listed, own, out, flavour, python, fmi)
 
 
-def _files(part: Part, flavour: Flavour, here: bool) -> dict[str, bytes]:
+def _files(part: Part, flavour: Flavour, fmi: Version, here: bool) -> dict[str, bytes]:
     """Return name and content of what makes the component run."""
     if flavour != "native":
         return {f"resources/{name}": data for name, data in resources.files(part).items()}
-    sources = native.sources(part, resources.guid(part, flavour))
-    libraries = binaries(sources, 2, part.name, here)
-    return {f"sources/{name}": data for name, data in sources.items()} | libraries
+    sources = native.sources(part, fmi)
+    libraries = binaries(sources, fmi, part.name, here)
+    if fmi == 3:
+        sources["buildDescription.xml"] = build_description(sources, part.name)
+    return {f"{SOURCES}{name}": data for name, data in sources.items()} | libraries
 
 
 def _page(part: Part, listed: tuple[Variable, ...]) -> Iterator[str]:

@@ -12,6 +12,7 @@ from fmu_src.native.tables import tables_h
 from fmu_src.native.translate import Num, Untranslatable
 
 from .part import Part, State, Values, start_values
+from .resources import guid
 from .scalars import INSTEAD
 from .variables import variables
 
@@ -30,15 +31,16 @@ def step(part: Part, state: State, inputs: Values, dt: float) -> Found:
     return after, part.outputs(after, inputs)
 
 
-def sources(part: Part, token: str, fmi: Version = 2) -> dict[str, bytes]:
+def sources(part: Part, fmi: Version = 2) -> dict[str, bytes]:
     """Return name and content of the sources. Raises SceneError if the component has no C."""
+    token, states = guid(part, "native", fmi), guid(part, "native")
     try:
         texts = _written(part)
     except Untranslatable as error:
         raise SceneError(
             f"A {part.name} has no native FMU so far ({error}). Take flavour = 'isolated' for the components."
         ) from error
-    texts |= {"tables.h": tables_h(), "model.c": model_c(variables(part), token, ranges=False)}
+    texts |= {"tables.h": tables_h(), "model.c": model_c(variables(part), token, states, ranges=False)}
     return {**native.runtime(fmi), **{name: text.encode() for name, text in texts.items()}}
 
 
@@ -49,9 +51,8 @@ def _written(part: Part) -> dict[str, str]:
     inputs: dict[str, Any] = {q.name: Num(names[q.name]) for q in part.inputs}
     count = len(part.initial(start_values(part)))
     state: Any = tuple(Num(f"held_{k}") for k in range(count))
-    instead = {**INSTEAD, **part.instead()}
-    begun, first_texts = translated(first, [part, inputs], instead)
-    stepped, step_texts = translated(step, [part, state, inputs, Num("dt")], instead)
+    begun, first_texts = translated(first, [part, inputs], INSTEAD)
+    stepped, step_texts = translated(step, [part, state, inputs, Num("dt")], INSTEAD)
     known = [number.text for number in inputs.values()]
 
     def calls(head: str, entry: Any) -> str:

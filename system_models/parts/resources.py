@@ -11,7 +11,7 @@ import contact_core
 from contact_core.errors import SceneError
 from contact_core.quantities import out_of_range, value_out_of_range
 from contact_core.scene.toml import build, did_you_mean, unbuild
-from fmu_src.flavours import Flavour
+from fmu_src.flavours import Flavour, Version
 from fmu_src.runtime.resources import identity, script
 
 from .part import Part
@@ -29,9 +29,9 @@ def files(part: Part) -> dict[str, bytes]:
     }
 
 
-def guid(part: Part, flavour: Flavour) -> str:
-    """Return the FMU's identity as a UUID, from part, version and flavour."""
-    return identity(_fingerprint(part), flavour)
+def guid(part: Part, flavour: Flavour, fmi: Version = 2) -> str:
+    """Return the FMU's identity as a UUID, from part, versions and flavour."""
+    return identity(_fingerprint(part), flavour, fmi)
 
 
 def check(part: Part) -> None:

@@ -1,6 +1,6 @@
 """Workers that solve the knots of a map: this process, others on this machine, or a cluster."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from itertools import islice
@@ -56,7 +56,7 @@ def _cluster(where: str) -> Iterator[tuple[Executor, int]]:
 
 def done_by(
     given: tuple[Executor | None, int], task: Callable[..., Result], arguments: Iterator[tuple[Any, ...]]
-) -> Iterator[Result]:
+) -> Generator[Result]:
     """Yield the results of a task as they come; more are asked for as long as results are taken."""
     executor, count = given
     if executor is None:

@@ -62,20 +62,36 @@ def find(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:
         return None
 
 
-def write(dataset: xr.Dataset, folder: Path, name: str = "result", maps: xr.Dataset | None = None) -> list[Path]:
+def attributes_of(file: Path) -> dict[str, Any] | None:
+    """Return the attributes of a result's netCDF file; None if there is none, or it was cut."""
+    try:
+        with xr.open_dataset(file, engine="h5netcdf") as dataset:
+            return dict(dataset.attrs)
+    except (OSError, ValueError):
+        return None
+
+
+def write(
+    dataset: xr.Dataset,
+    folder: Path,
+    name: str = "result",
+    maps: xr.Dataset | None = None,
+    table: xr.Dataset | None = None,
+) -> list[Path]:
     """Write `name`.nc and `name`.csv into an existing folder and return their paths.
 
     The CSV has a row for each point of the dataset's dimensions; variables constant along one of them are repeated.
-    `maps` go into the netCDF only.
+    `maps` go into the netCDF only; `table` replaces the dataset in the CSV.
     """
-    netcdf, table = folder / f"{name}.nc", folder / f"{name}.csv"
+    netcdf, text = folder / f"{name}.nc", folder / f"{name}.csv"
+    rows = dataset if table is None else table
     unfinished = netcdf.with_suffix(".new")
     whole = dataset if maps is None else dataset.merge(maps, combine_attrs="override")
     whole.to_netcdf(unfinished, engine="h5netcdf")
     unfinished.replace(netcdf)  # a kill leaves the old file or the new one
-    columns = xr.broadcast(*(dataset[column] for column in (*dataset.dims, *dataset.data_vars)))
-    with table.open("w", encoding="utf-8", newline="") as file:
+    columns = xr.broadcast(*(rows[column] for column in (*rows.dims, *rows.data_vars)))
+    with text.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(f"{column.name} [{column.attrs['units']}]" for column in columns)
         writer.writerows(zip(*(column.values.ravel().tolist() for column in columns), strict=True))
-    return [netcdf, table]
+    return [netcdf, text]

@@ -12,6 +12,7 @@ from fmu_src.native.model import model_c
 from fmu_src.variables import Variable, variables
 
 TOKEN = "5f4a2f0e-8a53-5b0a-9c39-0e3a8d1f7c11"
+STATES = "2c9f1a77-0d5e-5c43-9a61-4f6b8d2e7a30"
 MODEL = "MixedContact"
 CONTACT = Path(__file__).with_name("native") / "contact.c"
 _HEADER = """#ifndef CONTACT_H
@@ -41,7 +42,7 @@ def sources(fmi: Fmi) -> dict[str, bytes]:
     return runtime(fmi) | {
         "contact.h": header.encode(),
         "contact.c": CONTACT.read_bytes(),
-        "model.c": model_c(listed, TOKEN).encode(),
+        "model.c": model_c(listed, TOKEN, STATES).encode(),
     }
 
 

@@ -208,7 +208,7 @@ def test_the_command_line_names_platforms_without_a_library(
 
 
 def test_the_build_description_lists_what_is_compiled() -> None:
-    data = compiled.build_description(SOURCES)
+    data = compiled.build_description(SOURCES, "MixedContact")
     assert faults(data, "BuildDescription") == []
     root = ET.fromstring(data)
     assert [file.get("name") for file in root.iter("SourceFile")] == ["contact.c", "fmi.c"]

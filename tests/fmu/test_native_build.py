@@ -20,7 +20,7 @@ def test_texts_become_literals_of_c() -> None:
 
 
 def test_every_variable_stands_in_order_of_its_value_reference() -> None:
-    text = model.model_c(native_fmu.table(), native_fmu.TOKEN)
+    text = model.model_c(native_fmu.table(), native_fmu.TOKEN, native_fmu.STATES)
     rows = text.split("MODEL_VARIABLES[] = {\n")[1].split("\n};")[0].splitlines()
     listed = native_fmu.table()
     assert [row.split('"')[1] for row in rows] == [v.name for v in listed]
@@ -28,21 +28,21 @@ def test_every_variable_stands_in_order_of_its_value_reference() -> None:
     assert '"load", REAL, INPUT, PLACE_OF_INPUT(load), 53.7}' in of["load"]
     assert "REAL, DERIVATIVE, PLACE_OF_OUTPUT(dfriction_dload), 0.0}" in of["dfriction_dload"]
     assert "BOOLEAN, VALID, 0, 0.0}" in of["valid"]
-    assert "INTEGER, TUNABLE, 0, 1.0}" in of["fidelity"]
+    assert "INTEGER, FIXED, 0, 1.0}" in of["fidelity"]
     assert "STRING, FIXED, 0, 0.0}" in of["initial_state"]
 
 
 def test_what_the_sources_cannot_hold_is_refused() -> None:
     listed = list(native_fmu.table())
     with pytest.raises(ValueError, match="longer than 39 characters"):
-        model.model_c(listed, 40 * "x")
+        model.model_c(listed, 40 * "x", "states")
     load = replace(listed[0], maximum=float("inf"))
     with pytest.raises(ValueError, match="input load must be a Real with minimum"):
-        model.model_c([load, *listed[1:]], "token")
+        model.model_c([load, *listed[1:]], "token", "states")
     state = next(k for k, v in enumerate(listed) if v.name == "initial_state")
     listed[state] = replace(listed[state], start="file")
     with pytest.raises(ValueError, match="initial_state starts as 'file'"):
-        model.model_c(listed, "token")
+        model.model_c(listed, "token", "states")
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")

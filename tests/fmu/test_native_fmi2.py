@@ -140,8 +140,7 @@ def test_a_parameter_takes_its_own_value_only(fresh: Instance) -> None:
         "initial_state = '100%.state'",
     ]
     assert fresh.initialise() == [OK, OK, OK]
-    assert fresh.set(fidelity=1) == [OK]  # tunable
-    assert fresh.set(seed=0) == [ERROR]  # fixed
+    assert fresh.set(fidelity=1, seed=0) == [ERROR, ERROR]  # fixed
 
 
 def test_a_refused_step_leaves_state_and_outputs(ready: Instance) -> None:

@@ -7,6 +7,8 @@ import fmpy
 import native_fmu
 import pytest
 from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi3 import FMU3Slave
 from fmpy.validation import validate_fmu
 from fmu_host import unpacked
 
@@ -50,6 +52,42 @@ def test_every_start_value_may_be_set_and_no_other_value_of_a_parameter(packed: 
         assert len(fmpy.simulate_fmu(str(fmu), stop_time=1.0, output_interval=1.0, start_values=own)) == 2
         with pytest.raises(FMICallException, match="error"):
             fmpy.simulate_fmu(str(fmu), stop_time=1.0, start_values={"boundary_friction.bare": 0.2})
+
+
+def started(fmu: Path, folder: Path) -> FMU2Slave | FMU3Slave:
+    """An instance after its initialisation."""
+    description = fmpy.read_model_description(str(fmu))
+    two = description.fmiVersion.startswith("2")
+    instance = (FMU2Slave if two else FMU3Slave)(
+        guid=description.guid,
+        unzipDirectory=str(unpacked(fmu, folder)),
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        instanceName="one",
+    )
+    instance.instantiate()
+    if two:
+        instance.setupExperiment(startTime=0.0)
+        instance.enterInitializationMode()
+    else:
+        instance.enterInitializationMode(startTime=0.0)
+    instance.exitInitializationMode()
+    return instance
+
+
+def test_a_state_stored_by_one_version_is_restored_by_the_other(packed: dict[int, Path], tmp_path: Path) -> None:
+    two, three = (started(packed[fmi], tmp_path / str(fmi)) for fmi in (2, 3))
+    reals = [k for k, v in enumerate(native_fmu.table()) if (v.kind, v.causality) == ("Real", "output")]
+    two.doStep(0.0, 60.0)
+    three.doStep(0.0, 7.0)
+    data = two.serializeFMUstate(two.getFMUstate())
+    three.setFMUState(three.deserializeFMUState(data))
+    assert three.serializeFMUState(three.getFMUState()) == data
+    for instance in (two, three):
+        instance.doStep(60.0, 5.0)
+    assert two.getReal(reals) == three.getFloat64(reals)
+    assert any(two.getReal(reals))
+    for instance in (two, three):
+        instance.freeInstance()
 
 
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="needs cmake")

@@ -9,6 +9,7 @@ import pytest
 from checking import deep_findings, edited, replaced, verdicts
 
 from system_models.check import deep, report
+from system_models.check.package import FmuError
 from system_models.check.verdict import Verdict
 from system_models.cli.main import main
 
@@ -62,6 +63,8 @@ def test_an_fmu_of_several_levels_runs_at_its_cheapest_unless_asked(levelled: Pa
     found = deep_findings(levelled, "reset")
     assert verdicts(found, Verdict.PASS) >= {"run", "reset"}
     assert "with fidelity = 1, the cheapest, where it starts with 2 (--set fidelity=2" in found["start values"].evidence
+    with pytest.raises(FmuError, match=r"fidelity = 3 must be at least 1 and at most 2\. Correct it in --set\."):
+        deep_findings(levelled, "reset", fidelity="3")
     found = deep_findings(levelled, "reset", fidelity="2")
     assert found["run"].verdict == Verdict.FAIL
     assert "with fidelity = 2 (--set)" in found["start values"].evidence

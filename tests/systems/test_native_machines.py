@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from fmpy.ssp.simulation import simulate_ssp
 
+from contact_core.errors import SceneError
 from fmu_src.native import build as native_build
 from system_models.machines import reading
 from system_models.machines.export import with_timetable
@@ -25,6 +26,22 @@ SAME = 1e-7  # of the largest value: rounding, after some hundred steps
 def gcc(monkeypatch: pytest.MonkeyPatch) -> None:
     """Build with gcc: for this platform alone it is as good."""
     monkeypatch.setattr(native_build, "default_compiler", lambda: "gcc")
+
+
+@pytest.mark.parametrize(("machine", "changes"), [("bearing_218", {}), ("bearing_209", {"duty.axial_load": "500 N"})])
+def test_a_bearing_whose_contact_angles_change_is_refused_with_a_way_out(
+    machine: str, changes: dict[str, str], tmp_path: Path
+) -> None:
+    """Its radii change with them; before, the FMUs were built and refused every step."""
+    assembly = reading.assemble(reading.read(machine, changes))
+    with pytest.raises(SceneError, match=r"inner_1\.radius_x changes during this duty.*--flavour embedded"):
+        assembly.system(tmp_path, "native", here=True)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_radii_of_a_bearing_under_radial_load_stay_those_of_its_contacts() -> None:
+    contacts = reading.assemble(reading.read("bearing_209", {})).contacts
+    assert {contact.moved for contact in contacts.values()} == {()}
 
 
 def test_a_native_gear_pair_answers_as_the_python_and_is_exported_without_it(tmp_path: Path) -> None:

@@ -1,3 +1,5 @@
+"""README is short, and the examples of docs/how-to that any reader tries first run as they stand."""
+
 import re
 import tomllib
 from pathlib import Path
@@ -10,11 +12,13 @@ from contact_core import Scene, advance, initial_state
 from contact_core.scene.toml import read_table
 from system_models.run.duty import Duty
 
-README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text("utf-8")
+PAGES = "".join((ROOT / "docs" / "how-to" / f"{name}.md").read_text("utf-8") for name in ("run", "python", "scenes"))
 
 
 def block(language: str, start: str) -> str:
-    (found,) = re.findall(rf"```{language}\n({re.escape(start)}.*?)```", README, re.DOTALL)
+    (found,) = re.findall(rf"```{language}\n({re.escape(start)}.*?)```", PAGES, re.DOTALL)
     return found
 
 
@@ -47,9 +51,9 @@ def test_the_example_of_shapes_runs(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_the_scene_of_ones_own_is_a_scene() -> None:
-    table = read_table("mtm_zddp") | tomllib.loads(block("toml", "[surface_1]"))
-    scene = Scene.from_dict(table)
-    assert scene.tribofilm.full_thickness == 150e-9
+    (text,) = re.findall(r"```toml\n(.*?)```", README, re.DOTALL)
+    scene = Scene.from_dict(tomllib.loads(text) | {"name": "mine"})
+    assert scene.hertz(scene.operation.load).pressure_max == approx(1.09e9, rel=0.01)  # 3 W / (2 pi a2)
 
 
 def test_the_duty_is_a_duty(tmp_path: Path, scene: Scene) -> None:
@@ -81,3 +85,7 @@ def test_the_example_of_the_regression_level_runs(capsys: pytest.CaptureFixture[
     assert 0.01 < friction < 0.2
     assert slope != 0.0
     assert 0.0 < error < 1.0
+
+
+def test_readme_is_short() -> None:
+    assert len(README) < 6000

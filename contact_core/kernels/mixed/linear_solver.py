@@ -49,7 +49,9 @@ def elimination_order(ny: int, nx: int, wrapped: bool) -> Indices:
 
 
 def gmres(operator: Callable[[Array], Array], invert: Callable[[Array], Array], right: Array) -> Array:
-    """Solve a linear system by right-preconditioned GMRES from zero (Saad & Schultz, doi:10.1137/0907058).
+    """Solve a linear system by right-preconditioned GMRES from zero.
+
+    Source: Saad & Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856, doi:10.1137/0907058.
 
     The solution is not a number where the operator or its inverse is not.
     """

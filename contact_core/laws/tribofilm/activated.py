@@ -172,15 +172,24 @@ class ZhangSpikes(_ByOneStress):
 
     name: ClassVar[str] = "zhang_spikes"
     source: ClassVar[str] = (
-        "Zhang & Spikes 2016, doi:10.1007/s11249-016-0706-7; Zhang, Ewen & Spikes 2022, doi:10.1039/d2me00049k"
+        "Zhang & Spikes 2016, doi:10.1007/s11249-016-0706-7; Zhang, Ewen & Spikes 2022, doi:10.1039/d2me00049k; "
+        "removal: after Akchurin & Bosman 2017, doi:10.1007/s11249-017-0842-8"
     )
     equations: ClassVar[Equations] = Equations(
         (
             "∂h_t/∂t = A exp[−(E_0 − τ ΔV)/(k_B T)] (1 − h_t/h_{max}) − r h_t",
             "r = k_r p_s |v|",
         ),
-        "τ is the shear stress of oil and solids: a full film grows a tribofilm, too.",
+        "τ is the shear stress of oil and solids: a full film grows a tribofilm, too. Stress lowers the barrier to "
+        "zero at most.",
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
+        symbols={
+            "h_{max}": "full_thickness",
+            "A": "prefactor",
+            "E_0": "activation_energy",
+            "ΔV": "activation_volume",
+            "k_r": "removal_coefficient",
+        },
     )
 
     least_shear: float = _least_shear()
@@ -204,14 +213,24 @@ class Gosvami(_ByOneStress):
     """
 
     name: ClassVar[str] = "gosvami"
-    source: ClassVar[str] = "Gosvami et al. 2015, doi:10.1126/science.1258788"
+    source: ClassVar[str] = (
+        "Gosvami et al. 2015, doi:10.1126/science.1258788; removal: after Akchurin & Bosman 2017, "
+        "doi:10.1007/s11249-017-0842-8"
+    )
     equations: ClassVar[Equations] = Equations(
         (
             "∂h_t/∂t = A exp[−(E_0 − p_s ΔV)/(k_B T)] (1 − h_t/h_{max}) − r h_t",
             "r = k_r p_s |v|",
         ),
-        "The normal stress drives the growth where solids touch.",
+        "The normal stress drives the growth where solids touch. It lowers the barrier to zero at most.",
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
+        symbols={
+            "h_{max}": "full_thickness",
+            "A": "prefactor",
+            "E_0": "activation_energy",
+            "ΔV": "activation_volume",
+            "k_r": "removal_coefficient",
+        },
     )
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
@@ -241,8 +260,19 @@ class Combined(_Activated):
             "∂h_t/∂t = (w_1 k c + w_2 g) (h_{max} − h_t) − r h_t",
             "k = x k_B T/h_P,   g = (A/h_{max}) exp[−(E_0 − τ ΔV)/(k_B T)],   r = k_r p_s |v|",
         ),
-        "c is 1 where solids rub, else 0.",
+        "c is 1 where solids rub, else 0. Stress lowers the barrier to zero at most.",
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
+        symbols={
+            "h_{max}": "full_thickness",
+            "A": "prefactor",
+            "E_0": "activation_energy",
+            "ΔV": "activation_volume",
+            "k_r": "removal_coefficient",
+            "w_1": "contact_weight",
+            "w_2": "stress_weight",
+            "x": "rate_factor",
+            "c": "1 where solids rub, else 0 [1]",
+        },
     )
 
     full_thickness: float = _full_thickness()

@@ -51,6 +51,17 @@ class Arrhenius:
         ),
         "t is the time for which the point has been rubbed; h_max and C_3 are linear in 1/T between the fits.",
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
+        symbols={
+            "h_{max}": "full thickness, between full_thickness_from and full_thickness_to [m]",
+            "C_3": "largest removed thickness, between removal_thickness_from and removal_thickness_to [m]",
+            "C_4": "rate of removal [1/s]",
+            "C_{4,0}": "removal_rate",
+            "k_0": "growth_rate",
+            "E_k": "activation_energy",
+            "E_C": "removal_energy",
+            "T_0": "fit_temperature",
+            "t": "time for which the point has been rubbed [s]",
+        },
     )
     abrades: ClassVar[bool] = False
     takes_abrasion: ClassVar[bool] = True

@@ -74,6 +74,7 @@ class NoTribofilm(_Unabraded):
     equations: ClassVar[Equations] = Equations(
         ("h_t = 0",),
         "No additive.",
+        left_out="Tribofilm: friction, hardness and wear are those of bare solids all the time.",
     )
     full_thickness: ClassVar[float] = 1.0  # any positive number: the thickness is always zero
     dose: ClassVar[str] = "residence"
@@ -126,6 +127,13 @@ class Ghanbarzadeh(_Unabraded):
         ("h_t = h_{max} [1 − exp(−k t)] − C_3 [1 − exp(−C_4 t)],   k = x k_B T/h_P",),
         "t is the time for which the point has been rubbed; kB and hP are Boltzmann's and Planck's constants.",
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
+        symbols={
+            "h_{max}": "full_thickness",
+            "C_3": "removal_thickness",
+            "C_4": "removal_rate",
+            "x": "rate_factor",
+            "t": "time for which the point has been rubbed [s]",
+        },
     )
 
     full_thickness: float = parameter("m", "h_max, thickness without removal", above=0.0, most=1e-5)
@@ -234,6 +242,11 @@ class Andersson(_Unabraded):
         ("∂h_t/∂t = C_5 (1 − h_t/h_{max}) max(τ |u_1 − u_2| − C_6, 0)",),
         "Where solids touch; nothing is removed.",
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
+        symbols={
+            "h_{max}": "full_thickness",
+            "C_5": "growth_per_energy",
+            "C_6": "least_power",
+        },
     )
     dose: ClassVar[str] = "residence"
 

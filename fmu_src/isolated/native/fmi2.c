@@ -10,6 +10,10 @@
     Instance *instance = component;                            \
     if (!instance_known(component)) return fmi2Error
 
+/* A host that gives NULL for an array that is not empty, or for a place where to write, gets an error. */
+#define GIVEN(count, first, second) \
+    if (instance_lacks(instance, count, first, second)) return fmi2Error
+
 static fmi2Status unsupported(fmi2Component component, const char *what) {
     INSTANCE(component);
     return instance_fail(instance, "%s is not supported: see the capabilities in modelDescription.xml.", what);
@@ -29,6 +33,7 @@ const char *fmi2GetVersion(void) { return fmi2Version; }
 fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean loggingOn, size_t nCategories,
                                const fmi2String categories[]) {
     INSTANCE(c);
+    GIVEN(nCategories, categories, categories);
     instance_hear(instance, loggingOn, nCategories, categories);
     return fmi2OK;
 }
@@ -104,6 +109,7 @@ GET_AND_SET(String, STRING)
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state) {
     INSTANCE(c);
+    GIVEN(1, state, state);
     return instance_save(instance, (State **)state);
 }
 
@@ -125,6 +131,7 @@ fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size) {
     INSTANCE(c);
     STATE(state);
+    GIVEN(1, size, size);
     *size = state_size(state);
     return fmi2OK;
 }
@@ -135,12 +142,15 @@ fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte b
     if (size < state_size(state))
         return instance_fail(instance, "The FMU state has %zu bytes; there is room for %zu only.", state_size(state),
                              size);
+    GIVEN(size, bytes, bytes);
     state_write(state, bytes);
     return fmi2OK;
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state) {
     INSTANCE(c);
+    GIVEN(size, bytes, bytes);
+    GIVEN(1, state, state);
     State *read = instance_read(instance, bytes, size);
     if (!read) return fmi2Error;
     *state = read;
@@ -195,8 +205,9 @@ fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2
 }
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value) {
-    if (!instance_known(c)) return fmi2Error;
+    INSTANCE(c);
     if (kind != fmi2Terminated) return fmi2Discard;
+    GIVEN(1, value, value);
     *value = fmi2False;
     return fmi2OK;
 }

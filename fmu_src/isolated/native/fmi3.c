@@ -57,6 +57,7 @@ const char *fmi3GetVersion(void) { return fmi3Version; }
 fmi3Status fmi3SetDebugLogging(fmi3Instance c, fmi3Boolean loggingOn, size_t nCategories,
                                const fmi3String categories[]) {
     INSTANCE(c);
+    GIVEN(nCategories, categories, categories);
     instance_hear(instance, loggingOn, nCategories, categories);
     return fmi3OK;
 }
@@ -137,6 +138,8 @@ fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 currentCommunicationPoint, fmi
                       fmi3Boolean noSetFMUStatePriorToCurrentPoint, fmi3Boolean *eventHandlingNeeded,
                       fmi3Boolean *terminateSimulation, fmi3Boolean *earlyReturn, fmi3Float64 *lastSuccessfulTime) {
     INSTANCE(c);
+    GIVEN(1, eventHandlingNeeded, terminateSimulation);
+    GIVEN(1, earlyReturn, lastSuccessfulTime);
     const double numbers[3] = {currentCommunicationPoint, communicationStepSize, 0.0};
     (void)noSetFMUStatePriorToCurrentPoint;
     fmi2Status status = instance_do(instance, STEP, numbers);
@@ -174,6 +177,7 @@ GET_AND_SET(String, STRING)
 fmi3Status fmi3GetBoolean(fmi3Instance c, const fmi3ValueReference vr[], size_t nvr, fmi3Boolean values[], size_t n) {
     INSTANCE(c);
     SCALARS(nvr, n);
+    GIVEN(n, vr, values);
     fmi2Status status = fmi2OK;
     for (size_t i = 0; i < n && status == fmi2OK; i++) {
         fmi2Boolean truth = fmi2False;
@@ -187,6 +191,7 @@ fmi3Status fmi3SetBoolean(fmi3Instance c, const fmi3ValueReference vr[], size_t 
                           size_t n) {
     INSTANCE(c);
     SCALARS(nvr, n);
+    GIVEN(n, vr, values);
     fmi2Boolean *truths = malloc((n + 1) * sizeof *truths);
     if (!truths) return STATUS(instance_fail(instance, "There is no memory for the values that are set."));
     for (size_t i = 0; i < n; i++) truths[i] = values[i] ? fmi2True : fmi2False;
@@ -203,6 +208,7 @@ fmi3Status fmi3SetBoolean(fmi3Instance c, const fmi3ValueReference vr[], size_t 
 
 fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state) {
     INSTANCE(c);
+    GIVEN(1, state, state);
     return STATUS(instance_save(instance, (State **)state));
 }
 
@@ -224,6 +230,7 @@ fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state) {
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance c, fmi3FMUState state, size_t *size) {
     INSTANCE(c);
     OWN(state);
+    GIVEN(1, size, size);
     *size = state_size(state);
     return fmi3OK;
 }
@@ -234,12 +241,15 @@ fmi3Status fmi3SerializeFMUState(fmi3Instance c, fmi3FMUState state, fmi3Byte by
     if (size < state_size(state))
         return STATUS(instance_fail(instance, "The FMU state has %zu bytes; there is room for %zu only.",
                                     state_size(state), size));
+    GIVEN(size, bytes, bytes);
     state_write(state, (char *)bytes);
     return fmi3OK;
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state) {
     INSTANCE(c);
+    GIVEN(size, bytes, bytes);
+    GIVEN(1, state, state);
     State *read = instance_read(instance, (const char *)bytes, size);
     if (!read) return fmi3Error;
     *state = read;

@@ -11,6 +11,10 @@
     Instance *instance = c; \
     if (!instance_known(instance)) return fmi3Error
 
+/* A host that gives NULL for an array that is not empty, or for a place where to write, gets an error. */
+#define GIVEN(count, first, second) \
+    if (instance_lacks(instance, count, first, second)) return fmi3Error
+
 #define STATUS(status) ((fmi3Status)(status)) /* an instance has FMI 2.0's, of the same values */
 
 /* Log that the call `what` is not supported, and return fmi3Error. */

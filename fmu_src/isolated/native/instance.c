@@ -427,6 +427,13 @@ void *instance_free(Instance *instance) {
 
 /* variables */
 
+int instance_lacks(Instance *instance, size_t count, const void *first, const void *second) {
+    if (!count || (first && second)) return 0;
+    instance_fail(instance, "The call has NULL in place of %zu value%s. Nothing was done.", count,
+                  count == 1 ? "" : "s");
+    return 1;
+}
+
 static Variable *variable_of(Instance *instance, enum kind kind, uint32_t reference) {
     if (reference < instance->count && instance->variables[reference].kind == kind)
         return &instance->variables[reference];
@@ -436,6 +443,7 @@ static Variable *variable_of(Instance *instance, enum kind kind, uint32_t refere
 
 fmi2Status instance_get(Instance *instance, enum kind kind, const uint32_t references[], size_t count, void *values) {
     if (!instance->worker) return lost(instance);
+    if (instance_lacks(instance, count, references, values)) return fmi2Error;
     for (size_t i = 0; i < count; i++) {
         const Variable *variable = variable_of(instance, kind, references[i]);
         if (!variable) return fmi2Error;
@@ -502,6 +510,7 @@ fmi2Status instance_set(Instance *instance, enum kind kind, const uint32_t refer
     enum { MANY = 65536 };
     if (!instance->worker) return lost(instance);
     if (instance->terminated) return out_of_turn(instance, "Setting a variable");
+    if (instance_lacks(instance, count, references, values)) return fmi2Error;
     for (size_t i = 0; i < count; i++) {
         Variable *variable = variable_of(instance, kind, references[i]);
         if (!variable || !settable(instance, variable, kind, references[i])) return fmi2Error;

@@ -38,6 +38,9 @@ void instance_hear(Instance *instance, int logging, size_t count, const char *co
 /* Log an error to the host, and return fmi2Error. */
 fmi2Status instance_fail(Instance *instance, const char *format, ...);
 
+/* True, and an error for the host, if one of both arrays of a call is NULL, and not empty. */
+int instance_lacks(Instance *instance, size_t count, const void *first, const void *second);
+
 /* Have the worker carry out `operation`. */
 fmi2Status instance_do(Instance *instance, enum operation operation, const double numbers[3]);
 fmi2Status instance_reset(Instance *instance);

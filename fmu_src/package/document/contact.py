@@ -7,6 +7,7 @@ import numpy as np
 
 from contact_core.scene import Scene, SelfAffine, Surface
 
+from ...flavours import Flavour
 from ...variables import FIDELITY
 from . import drawings, measured
 from .levels import LEVELS
@@ -22,14 +23,13 @@ def _numbers(factor: float, values: Iterable[float], unit: str) -> str:
     return ", ".join(number(factor * value) for value in values) + f" {unit}"
 
 
-def data(scene: Scene) -> Iterator[str]:
+def data(scene: Scene, flavour: Flavour) -> Iterator[str]:
     """Yield the section on the data of the scene."""
     bodies, point, hertz = scene.geometry, scene.operation.point, scene.hertz(scene.operation.load)
     yield paragraph(
         "Two rough bodies roll and slide on each other in oil under a normal load. The FMU computes film thickness, "
-        "pressure, real contact area, friction, growth of the tribofilm, wear and the resulting roughness. It starts "
-        f"at the {scene.film.name} level: {LEVELS[scene.film.name].summary(scene)} The parameter {FIDELITY} changes "
-        "the level at any step; this page describes the one at the start."
+        "pressure, real contact area, friction, growth of the tribofilm, wear and the resulting roughness. It "
+        f"{_at_level(scene, flavour)}"
     )
     rows = [
         *(
@@ -59,6 +59,17 @@ def data(scene: Scene) -> Iterator[str]:
     if scene.warnings():
         yield "<h3>Notes on this scene</h3>"
         yield from bullets(scene.warnings())
+
+
+def _at_level(scene: Scene, flavour: Flavour) -> str:
+    """Return the end of a sentence on the level of the FMU, and whether it can be changed."""
+    level = f"the {scene.film.name} level: {LEVELS[scene.film.name].summary(scene)}"
+    if flavour == "native":
+        return f"has {level}"
+    return (
+        f"starts at {level} The parameter {FIDELITY} changes the level at any step; this page describes the one at the "
+        "start."
+    )
 
 
 def _given(surface: Surface | SelfAffine) -> str:
@@ -102,19 +113,24 @@ def validity(scene: Scene) -> Iterator[str]:
         "Inputs and parameters outside the ranges in the tables below are refused: valid becomes false. Inside them, "
         "range_flags reports what makes a result less certain. This scene, at its reference operating point:"
     )
-    yield table(("", "here", "meaning"), _limits(scene))
+    yield table(("", "here", "meaning"), limits(scene))
     yield paragraph(f"Not modelled: {', '.join(_not_modelled(scene))}.")
 
 
 def _not_modelled(scene: Scene) -> Iterator[str]:
     if not scene.lubricant.supply.starves:
         yield "starvation (lubricant.supply = flooded: the inlet is full)"
+    yield from not_modelled(scene)
+
+
+def not_modelled(scene: Scene) -> Iterator[str]:
+    """Yield what no law of a scene like this knows."""
     yield from scene.geometry.not_modelled
     yield "heat carried along by moving asperities (temperatures are steady)"
     yield "motion of the bodies across the track"
 
 
-def _limits(scene: Scene) -> Iterator[tuple[str, str, str]]:
+def limits(scene: Scene) -> Iterator[tuple[str, str, str]]:
     """Yield quantity, value and meaning of the limits of the model at this scene."""
     hertz, load = scene.hertz(scene.operation.load), scene.operation.load
     power = 1.0 / scene.shape().power  # maximum pressure grows with the load to the power of its inverse

@@ -6,6 +6,7 @@ from typing import Any
 
 from contact_core.laws.equations import Equations
 from contact_core.scene import Scene
+from contact_core.scene.in_use import InUse, in_use
 
 from .markup import equation, paragraph, source, table
 
@@ -18,7 +19,8 @@ def equations(scene: Scene) -> Iterator[str]:
         yield from _titled(shown)
     yield from _formula(Equations((), source=film.source))
     yield from _titled(film.friction)
-    yield from _laws(scene)
+    for used in in_use(scene):
+        yield from _law(used)
     yield "<h3>Options, fixed when the FMU was built</h3>"
     yield table(("option", "choice", "meaning"), _options(scene))
 
@@ -36,26 +38,12 @@ def _formula(shown: Equations, note: str = "", origin: str = "") -> Iterator[str
         yield source(origin or shown.source)
 
 
-def _laws(record: Any, path: str = "") -> Iterator[str]:
-    """Yield equations and source of every law of a record, and of the options that it is used with."""
-    for f in fields(record):
-        part: Any = getattr(record, f.name)
-        if hasattr(part, "equations"):
-            yield from _law(part, f"{path}{f.name}")
-        if is_dataclass(part):
-            yield from _laws(part, f"{path}{f.name}.")
-
-
-def _law(law: Any, path: str) -> Iterator[str]:
-    own: Equations = law.equations
-    choices = {option: getattr(law, option) for option in own.options}
-    chosen = {option: known[choices[option]] for option, known in own.options.items() if choices[option] in known}
-    notes = [own.note, *(text.note for text in chosen.values() if not text.lines)]
-    yield f"<h3>{path}: {law.name}</h3>"
-    yield from _formula(own, " ".join(filter(None, notes)), law.source)
-    for option, shown in chosen.items():
+def _law(used: InUse) -> Iterator[str]:
+    yield f"<h3>{used.path}: {used.law.name}</h3>"
+    yield from _formula(used.equations, used.notes, used.law.source)
+    for option, choice, shown in used.chosen:
         if shown.lines:
-            yield f"<h3>{path}.{option}: {choices[option]}</h3>"
+            yield f"<h3>{used.path}.{option}: {choice}</h3>"
             yield from _formula(shown)
 
 

@@ -9,8 +9,9 @@ from contact_core.state import RangeFlag
 
 from ...flavours import Flavour, Version
 from ...runtime.guarded import LOG_CATEGORIES
-from ...variables import FIDELITY, INITIAL_STATE, Variable, variables
+from ...variables import FIDELITY, INITIAL_STATE, Variable
 from .. import evidence, licences
+from ..describe import variables_of
 from .markup import bullets, paragraph, table
 
 _KINDS = (("Inputs", "input"), ("Outputs", "output"), ("Parameters", "parameter"), ("Time", "independent"))
@@ -122,7 +123,7 @@ def _events(flavour: Flavour) -> tuple[tuple[str, str, str], ...]:
 def variable_tables(scene: Scene, flavour: Flavour) -> Iterator[str]:
     """Yield the section of all variables."""
     yield paragraph("All values are in SI units. Bounds are those of modelDescription.xml.")
-    listed = variables(scene)
+    listed = variables_of(scene, flavour)
     for title, causality in _KINDS:
         yield f"<h3>{title}</h3>"
         if causality == "parameter":

@@ -11,6 +11,11 @@ _DOI = re.compile(r"doi:(10\.\d+/[^\s,;]+)")
 
 
 def equation(line: str) -> str:
+    """Return one line of an equation as a paragraph of HTML, see `inline`."""
+    return f'<p class="equation">{inline(line)}</p>'
+
+
+def inline(line: str) -> str:
     """Return one line of an equation, written like `h_c / σ = W_c g^{1/2}`, as HTML.
 
     `_` and `^` take one letter or braces; letters that stand alone are italic.
@@ -20,7 +25,7 @@ def equation(line: str) -> str:
         tag, script = _TAGS[found[1]], found[2] or found[3]
         parts += [_letters(line[end : found.start()]), f"<{tag}>{_letters(script)}</{tag}>"]
         end = found.end()
-    return f'<p class="equation">{"".join([*parts, _letters(line[end:])])}</p>'
+    return "".join([*parts, _letters(line[end:])])
 
 
 def _letters(text: str) -> str:

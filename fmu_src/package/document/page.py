@@ -42,7 +42,7 @@ _PAGE = """<!DOCTYPE html>
 def documentation(scene: Scene, flavour: Flavour, reference: bool, fmi: Version = 2) -> bytes:
     """Return the page of a scene's FMU, UTF-8; `reference`: the FMU carries reference data."""
     sections = {
-        "contact": ("The contact", contact.data(scene)),
+        "contact": ("The contact", contact.data(scene, flavour)),
         "signs": ("Signs and directions", contact.signs(scene)),
         "equations": ("Equations", formulas.equations(scene)),
         "validity": ("Range of validity", contact.validity(scene)),

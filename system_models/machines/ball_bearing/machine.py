@@ -68,9 +68,10 @@ def design(table: Mapping[str, Any], duty: Timeline) -> Design:
     schedule: Schedule = dict(duty.schedule(_SETS))
     schedule["drive.speed_setpoint"] = drive.with_arrivals(duty.course("speed"))
     classes = bearing.designs(*_largest(duty))
+    moved = ("radius_x",) if _leans(bearing, duty) else ()
     return Design(
         parts,
-        {each.name: _contact(table, each) for each in classes},
+        {each.name: _contact(table, each, moved) for each in classes},
         (*_SHAFT, *(link for each in classes for link in _links(each))),
         schedule,
         {"rating": record(Rating, {"rating": {}, **table}, "rating")},
@@ -85,11 +86,17 @@ def _largest(duty: Timeline) -> tuple[RingLoads, float]:
     return loads, max(abs(row["speed"]) for row in rows)
 
 
-def _contact(table: Mapping[str, Any], design: LoadClass) -> Contact:
+def _leans(bearing: BallBearing, duty: Timeline) -> bool:
+    """Return True if contact angles change, and with them radii: only a purely radial load leaves all at 0."""
+    rows = [values for _, values in duty.filled()]
+    return bearing.dimensions.contact_angle > 0.0 or any(row.get("axial_load") or row.get("moment") for row in rows)
+
+
+def _contact(table: Mapping[str, Any], design: LoadClass, moved: tuple[str, ...]) -> Contact:
     """Return the contact of a load class: values of its FMU beside the connected inputs."""
     tracks = {f"geometry.track_length_{i}": getattr(design, f"track_length_{i}") for i in (1, 2)}
     values = {"radius_x": design.radius_x, "radius_y": design.radius_y, **tracks}
-    return Contact(scene_of(table), values, "bearing." + indexed(f"count_{design.race}", design.level))
+    return Contact(scene_of(table), values, "bearing." + indexed(f"count_{design.race}", design.level), moved)
 
 
 def _links(design: LoadClass) -> list[tuple[Any, ...]]:

@@ -1,4 +1,4 @@
-"""README's figures are those of its pages, the worst beside the best, and pages agree with themselves."""
+"""Figures of docs/how_good.md are those of its pages, the worst beside the best, and pages agree with themselves."""
 
 import re
 import shutil
@@ -9,7 +9,7 @@ import pytest
 from comparison import approx
 
 from benchmarks.film import peers
-from benchmarks.house.readme_figures import section, section_of
+from benchmarks.house.how_good import PATH, written
 from benchmarks.house.tables import Pages, number
 from benchmarks.thesis.page import KINDS, NAMES, explained
 from benchmarks.thesis.rows import VERDICTS, Judged
@@ -26,16 +26,12 @@ def page(name: str) -> str:
     return (MEASURED / name).read_text("utf-8")
 
 
-# README
+def test_the_page_is_the_one_that_the_pages_give() -> None:
+    assert PATH.read_text("utf-8").splitlines() == written(PAGES).splitlines()
 
 
-def test_the_section_of_figures_is_the_one_that_the_pages_give() -> None:
-    found, expected = (text.strip().splitlines() for text in (section_of(README), section(PAGES)))
-    assert found == expected
-
-
-def test_figures_of_a_measurement_stand_in_that_section_alone() -> None:
-    prose = re.sub(r"```.*?```", "", README.replace(section_of(README), ""), flags=re.DOTALL)
+def test_figures_of_a_measurement_stand_on_that_page_and_not_in_readme() -> None:
+    prose = re.sub(r"```.*?```", "", README, flags=re.DOTALL)
     assert re.findall(rf".*\d ?{UNITS}.*", prose) == []
 
 
@@ -58,7 +54,7 @@ def test_a_worse_figure_of_a_page_becomes_the_worst(name: str, old: str, new: st
     text = page(name)
     assert old in text
     (tmp_path / "docs" / name).write_text(text.replace(old, new, 1), "utf-8")
-    changed = set(section(Pages(tmp_path / "docs")).splitlines()) - set(section(PAGES).splitlines())
+    changed = set(written(Pages(tmp_path / "docs")).splitlines()) - set(written(PAGES).splitlines())
     assert any(said in line for line in changed), changed
 
 

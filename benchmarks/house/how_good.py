@@ -1,6 +1,6 @@
-"""Write the README's section "How good, how fast" from the tables of docs/measured: the best figure beside the worst.
+"""Write docs/how_good.md from the tables of docs/measured: the best figure beside the worst.
 
-    python -m benchmarks.house.readme_figures
+    python -m benchmarks.house.how_good
 
 Each figure is looked up in a table that a benchmark wrote. Run this again when a page has changed; a test compares.
 """
@@ -21,11 +21,12 @@ from benchmarks.house.figures_of_levels import drivers, error_outputs, fast_step
 from benchmarks.house.figures_of_systems import coupling, fmu, machines, thesis
 from benchmarks.house.tables import Pages, line_of
 
-HEAD = "## How good, how fast\n"
-INTRODUCTION = """
-`python -m benchmarks.house.readme_figures` writes this section from the linked pages, and the benchmarks named there write the
-pages. One thread; CPU seconds on a shared machine; a work unit (WU) is one deformation convolution on the same grid.
-`python -m benchmarks.house.pages` lists those whose sources have changed since they were written.
+PATH = ROOT / "docs" / "how_good.md"
+INTRODUCTION = """# How good, how fast
+
+`python -m benchmarks.house.how_good` writes this page from the linked ones, and the benchmarks named there write those. One thread; CPU
+seconds on a shared machine; a work unit (WU) is one deformation convolution on the same grid. `python -m benchmarks.house.pages` lists
+pages whose sources have changed since they were written.
 """
 
 
@@ -37,15 +38,15 @@ SECTIONS: tuple[tuple[str, tuple[Callable[[Pages], list[tuple[str, ...]]], ...]]
 )
 DRIVERS = """
 Rms over time on 129 x 129 nodes, the larger of both bodies unless named. Errors of time and iteration only; the grid follows below.
-Sampling affects mainly the groove-free roughness of the smooth ball (4 to 6 nm, [surfaces/evolution](docs/measured/surfaces/evolution.md)).
+Sampling affects mainly the groove-free roughness of the smooth ball (4 to 6 nm, [surfaces/evolution](measured/surfaces/evolution.md)).
 """
 
 
-def section(pages: Pages) -> str:
-    """Return the section, from its heading to the end of its last table."""
-    lines = [HEAD.rstrip(), *INTRODUCTION.rstrip().splitlines(), ""]
+def written(pages: Pages) -> str:
+    """Return the page."""
+    lines = [*INTRODUCTION.rstrip().splitlines(), ""]
     for title, parts in SECTIONS:
-        lines += [f"**{title}**", ""]
+        lines += [f"## {title}", ""]
         if half_widths in parts:
             lines += [*DRIVERS.strip().splitlines(), "", *drivers(pages), ""]
         lines += [line_of(("what", "best", "worst", "page")), "|---|---|---|---|"]
@@ -54,17 +55,5 @@ def section(pages: Pages) -> str:
     return "\n".join(lines)
 
 
-def section_of(text: str) -> str:
-    """Return the section of a README's text."""
-    start = text.index(HEAD)
-    return text[start : text.index("\n## ", start) + 1]
-
-
-def main() -> None:
-    path = ROOT / "README.md"
-    text = path.read_text(encoding="utf-8")
-    path.write_text(text.replace(section_of(text), section(Pages(MEASURED)) + "\n"), encoding="utf-8")
-
-
 if __name__ == "__main__":
-    main()
+    PATH.write_text(written(Pages(MEASURED)), encoding="utf-8")

@@ -1,0 +1,55 @@
+"""The command `tribofmu explain`: what a scene, or the contact of a machine, is made of, and how sure it is."""
+
+import argparse
+import shutil
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ..machines import files
+from .console import add_settings
+
+if TYPE_CHECKING:
+    from ..explain.model import Explanation
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument(
+        "scene", metavar="NAME", help="a shipped scene or machine (`tribofmu list`), or the path of a .toml file"
+    )
+    add_settings(
+        parser,
+        "change values of the scene, e.g. heat.model=field lubricant.set=m100; of a machine's contact "
+        "contact.heat.model=field",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print laws, equations, values with their sources, what is left out, and what to trust; return 0."""
+    from ..explain.scene import explain
+    from ..explain.terminal import render
+
+    settings, name = dict(arguments.settings), arguments.scene
+    explanation = _contact(name, settings) if files.is_machine(name) else explain(name, settings)
+    print(render(explanation, shutil.get_terminal_size((100, 24)).columns))
+    return 0
+
+
+def _contact(name: str, settings: dict[str, str]) -> "Explanation":
+    """Return the explanation of the contact of a machine."""
+    from ..explain.scene import explain
+    from ..machines.reading import read
+    from ..machines.tables import contact_of
+
+    machine = read(name, settings)
+    scene, changes = contact_of(machine.table)
+    explanation = explain(scene, changes)
+    return replace(
+        explanation,
+        name=machine.name,
+        description=str(machine.table["description"]),
+        about=f"The contact of this machine is the scene {scene}, with what the machine's file sets. Loads, speeds, "
+        "radii and temperatures of each contact are the machine's; those below are the scene's. "
+        f"{explanation.about}",
+        commands=((f"tribofmu run {name}", "the machine, with its errors"),),
+    )

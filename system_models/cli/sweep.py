@@ -1,0 +1,97 @@
+"""The command `tribofmu sweep`: runs a scene with many values of some of its keys."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from contact_core.errors import ContactError
+
+from .console import add_settings, output_folder
+from .map import executor_arguments, processes_of
+from .scenes import refuse_machine
+
+if TYPE_CHECKING:
+    from ..sweep.plan import Plan
+    from ..sweep.points import Outcome, Task
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument("scene", metavar="NAME", help="a shipped scene (`tribofmu list`), or the path of a .toml file")
+    parser.add_argument(
+        "--vary",
+        metavar="KEY=VALUES",
+        nargs="+",
+        action="extend",
+        default=[],
+        help="a key of the scene and its values: LOW:HIGH:N for N even steps, with :log behind for even steps of the "
+        "logarithm; A,B,... for a choice; LOW:HIGH for a range that samples fill. All grids and choices are crossed",
+    )
+    parser.add_argument("--samples", metavar="N", type=int, help="samples in all ranges LOW:HIGH together")
+    parser.add_argument(
+        "--method",
+        choices=("lhs", "sobol", "indices"),
+        default="lhs",
+        help="Latin hypercube; Sobol's sequence; or Sobol indices of the outputs, which take N (keys + 2) runs "
+        "(default: %(default)s)",
+    )
+    parser.add_argument("--seed", metavar="S", type=int, default=1, help="of the samples (default: %(default)s)")
+    parser.add_argument("--out", metavar="DIR", help="folder of the results (default: results/NAME_sweep)")
+    executor_arguments(parser, "runs")
+    add_settings(parser, "change values of the scene at every point, e.g. film.model=regression")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run, print and write the sweep; return the exit code."""
+    from ..store.checkpoint import alone
+    from ..sweep.plan import plan_of
+    from ..sweep.points import Task
+
+    refuse_machine(arguments.scene)
+    plan = plan_of(arguments.vary, arguments.samples, arguments.method, arguments.seed)
+    if plan.method == "indices" and plan.grid:
+        keys = ", ".join(factor.key for factor in plan.grid)
+        raise ContactError(f"--method indices varies ranges alone: give {keys} as LOW:HIGH, or by --set.")
+    folder = output_folder(arguments.out, f"{Path(arguments.scene).stem}_sweep")
+    duty = Path(arguments.scene).parent if arguments.scene.endswith(".toml") else Path()
+    task = Task(arguments.scene, tuple(arguments.settings), duty, output_folder(str(folder / "points"), ""))
+    with alone(folder):
+        outcomes = _solved(task, plan, processes_of(arguments.processes), arguments.executor)
+        return _report(task, plan, outcomes, folder)
+
+
+def _solved(task: "Task", plan: "Plan", processes: int, executor: str | None) -> "dict[int, Outcome]":
+    """Run the points, with a counter of them."""
+    from math import prod
+
+    from tqdm import tqdm
+
+    from ..sweep.points import solved
+
+    bar = tqdm(
+        total=prod(plan.shape),
+        desc=Path(task.scene).stem,
+        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} runs [{elapsed}<{remaining}]",
+    )
+    try:
+        with bar:
+            return solved(task, plan, processes, executor, lambda count: bar.update(count - bar.n))
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"Runs are kept in '{task.folder}': the same command goes on from there.") from None
+
+
+def _report(task: "Task", plan: "Plan", outcomes: "dict[int, Outcome]", folder: Path) -> int:
+    """Print and write the sweep; return the exit code."""
+    from ..store.results import write
+    from ..sweep import report
+    from ..sweep.points import ends, gathered, rows
+    from ..sweep.sensitivity import indices
+
+    dataset = gathered(task, plan, outcomes)
+    found = indices(plan, ends(dataset), report.OUTPUTS) if plan.method == "indices" else []
+    said = report.lines(plan, dataset, found)
+    print(dataset.attrs["title"], report.table(plan, dataset), *said, sep="\n")
+    netcdf = write(dataset, folder, "sweep", table=rows(plan, dataset))
+    print(f"Written: {', '.join(map(str, [*netcdf, report.write_picture(plan, dataset, folder / 'sweep.png')]))}")
+    refused = any(outcome.refused for outcome in outcomes.values())
+    return 1 if refused or not bool(dataset["valid"].values.all()) else 0

@@ -1,0 +1,164 @@
+"""The report of a sweep: table of the ends of its runs, which key matters, and one picture."""
+
+import itertools
+import textwrap
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from ..run.report import with_error
+from ..store.results import ERROR
+from .plan import Plan
+from .points import ends
+from .sensitivity import Indices
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# heading, unit people read, variable, factor from SI, digits
+_COLUMNS = (
+    ("friction", "", "friction_coefficient", 1.0, 4),
+    ("h_c", "nm", "h_c", 1e9, 2),
+    ("W_c", "", "contact_load_ratio", 1.0, 3),
+    ("tribofilm 1", "nm", "tribofilm_1", 1e9, 2),
+    ("wear 1", "nm", "wear_depth_1", 1e9, 2),
+    ("wear 2", "nm", "wear_depth_2", 1e9, 2),
+)
+_MOST_ROWS = 40
+_BLUE = "#0072B2"  # of Okabe and Ito
+OUTPUTS = tuple(column[2] for column in _COLUMNS)
+
+
+def shown(dataset: xr.Dataset) -> list[tuple[str, str, str, float, int]]:
+    """Return the columns whose values are not all zero."""
+    last = ends(dataset)
+    return [column for column in _COLUMNS if np.nan_to_num(last[column[2]].values).any()]
+
+
+def table(plan: Plan, dataset: xr.Dataset) -> str:
+    """Return the ends of the runs as text: each run, or the spread of each output where there are many."""
+    last = ends(dataset)
+    flat = last["refused"].values.ravel()
+    points = list(plan.points())
+    if plan.method == "indices" or len(points) > _MOST_ROWS:
+        return _spread(last, dataset)
+    columns = [[factor.key, *(point.settings[factor.key] for point in points)] for factor in plan.factors]
+    for heading, unit, name, factor, digits in shown(dataset):
+        values = factor * last[name].values.ravel()
+        halves = (
+            factor * last.coords[f"{name}{ERROR}"].values.ravel() if f"{name}{ERROR}" in last.coords else 0 * values
+        )
+        cells = [
+            "refused" if reason else with_error(value, half, digits)
+            for value, half, reason in zip(values, halves, flat, strict=True)
+        ]
+        columns.append([f"{heading} [{unit}]" if unit else heading, *cells])
+    return _aligned(columns)
+
+
+def _spread(last: xr.Dataset, dataset: xr.Dataset) -> str:
+    columns: list[list[str]] = [["output"], ["least"], ["2.5 %"], ["median"], ["97.5 %"], ["largest"]]
+    for heading, unit, name, factor, digits in shown(dataset):
+        values = factor * last[name].values[np.isfinite(last[name].values)]
+        cells = [f"{value:.{digits}f}" for value in np.quantile(values, (0.0, 0.025, 0.5, 0.975, 1.0))]
+        for column, cell in zip(columns, [f"{heading} [{unit}]" if unit else heading, *cells], strict=True):
+            column.append(cell)
+    return _aligned(columns)
+
+
+def _aligned(columns: list[list[str]]) -> str:
+    widths = [max(map(len, column)) for column in columns]
+    padded = [[cell.rjust(width) for cell in column] for column, width in zip(columns, widths, strict=True)]
+    return "\n".join("  ".join(line) for line in zip(*padded, strict=True))
+
+
+def lines(plan: Plan, dataset: xr.Dataset, found: list[Indices]) -> list[str]:
+    """Return sentences on which key matters, and on points that are refused or invalid."""
+    said = []
+    if found:
+        said.append("Share of an output's variance that is due to a key (Sobol indices, 95 %): alone; with others.")
+        columns = [["output"], ["key"], ["alone"], ["with others"]]
+        for each in found:
+            texts = [f"{low:.2f} to {high:.2f}" for _, low, high in (each.first, each.total)]
+            for column, cell in zip(columns, [each.output, each.key, *texts], strict=True):
+                column.append(cell)
+        said.append(_aligned(columns))
+    reasons = [reason for reason in dataset["refused"].values.ravel() if reason]
+    if reasons:
+        said.append(f"Refused: {len(reasons)} of {dataset['refused'].size} points. The first: {reasons[0]}")
+    valid = dataset["valid"].values
+    runs = valid.reshape(dataset["refused"].size, -1).all(axis=1)
+    bad = int(np.sum(~runs)) - len(reasons)
+    said.append(
+        f"Validity: all rows of all {runs.size - len(reasons)} runs are valid."
+        if not bad
+        else f"Validity: {bad} of {runs.size - len(reasons)} runs have invalid rows."
+    )
+    return said
+
+
+def write_picture(plan: Plan, dataset: xr.Dataset, file: Path) -> Path:
+    """Write the picture and return its path: a panel for each output, of samples one for each key that they vary."""
+    from matplotlib.figure import Figure
+
+    last, columns = ends(dataset), shown(dataset)
+    if plan.sampled:
+        across, down = len(plan.sampled), len(columns)
+    else:
+        across = min(3, len(columns))
+        down = -(-len(columns) // across)
+    figure = Figure(figsize=(4.0 * across + 1.0, 2.6 * down + 0.6), layout="constrained")
+    axes = figure.subplots(down, across, squeeze=False)
+    for k, (heading, unit, name, factor, _) in enumerate(columns):
+        label = f"{heading} [{unit}]" if unit else heading
+        if plan.sampled:
+            axes[k][0].set_ylabel(label)
+            for axis, each in zip(axes[k], plan.sampled, strict=True):
+                _dots(axis, last, each.key, name, factor)
+                axis.set_xscale("log" if each.logarithmic else "linear")
+                axis.set_xlabel(f"{each.key} [{each.unit}]" if each.unit and k == down - 1 else "")
+        else:
+            axis = axes.flat[k]
+            axis.set_ylabel(label)
+            _curves(axis, plan, last, name, factor, legend=k == 0)
+    for axis in axes.flat[len(columns) :] if not plan.sampled else ():
+        axis.set_axis_off()
+    title = textwrap.fill(dataset.attrs["title"], 40 * across)
+    figure.suptitle(f"{title}\nat the end of each run; bands and bars: stated errors (95 %)", fontsize=9)
+    figure.savefig(file, dpi=120)
+    return file
+
+
+def _dots(axis: "Axes", last: xr.Dataset, key: str, name: str, factor: float) -> None:
+    """Draw an output over a sampled key, one dot with its error for each sample."""
+    values = factor * last[name].transpose("sample", ...).values.reshape(last.sizes["sample"], -1)
+    where = np.repeat(last[key].values[:, None], values.shape[1], axis=1)
+    if f"{name}{ERROR}" in last.coords:
+        halves = factor * last.coords[f"{name}{ERROR}"].transpose("sample", ...).values.reshape(values.shape)
+        axis.errorbar(where.ravel(), values.ravel(), halves.ravel(), fmt="none", ecolor="#BBBBBB", lw=0.6)
+    axis.plot(where.ravel(), values.ravel(), "o", ms=3, color=_BLUE)
+
+
+def _curves(axis: "Axes", plan: Plan, last: xr.Dataset, name: str, factor: float, legend: bool) -> None:
+    """Draw an output over the longest axis of the grid, a curve for each choice of the others."""
+    along = max(plan.grid, key=lambda each: len(each.choices))
+    others = [each for each in plan.grid if each is not along]
+    where = last[along.key].values
+    numbers = np.issubdtype(np.asarray(where).dtype, np.number)
+    half = last.coords.get(f"{name}{ERROR}")
+    for place in itertools.product(*(range(len(each.choices)) for each in others)):
+        here = {each.key: k for each, k in zip(others, place, strict=True)}
+        values = factor * last[name].isel(here).values
+        label = ", ".join(f"{each.key} = {each.choices[k]}" for each, k in zip(others, place, strict=True))
+        (line,) = axis.plot(where, values, "o-", ms=3, lw=1, label=label)
+        if half is not None:
+            width = factor * half.isel(here).values
+            if numbers:
+                axis.fill_between(where, values - width, values + width, color=line.get_color(), alpha=0.12, lw=0)
+            else:
+                axis.errorbar(where, values, width, fmt="none", ecolor=line.get_color(), lw=1)
+    axis.set_xlabel(f"{along.key} [{last[along.key].attrs['units']}]" if numbers else along.key)
+    if others and legend:
+        axis.legend(fontsize=6)

@@ -1,0 +1,48 @@
+"""docs/equations.md is what the laws say, in mathematics that can be set."""
+
+import re
+from pathlib import Path
+
+import pytest
+from matplotlib.mathtext import MathTextParser
+
+from contact_core.film import FILMS
+from contact_core.laws import SLOTS
+from contact_core.shapes import GEOMETRIES
+from system_models.explain.collection import page
+from system_models.explain.latex import latex
+
+PAGE = (Path(__file__).parents[2] / "docs" / "equations.md").read_text("utf-8")
+
+
+def test_the_page_is_what_the_laws_say_today():
+    assert page() == PAGE, "python -m system_models.explain.collection > docs/equations.md"
+
+
+def test_the_page_has_every_law_level_and_shape():
+    headings = re.findall(r"^### `(\w+)`$", PAGE, re.MULTILINE)
+    laws = [law.name for laws in SLOTS.values() for law in laws]
+    known = [*laws, *(shape.name for shape in GEOMETRIES), *(film.name for film in FILMS)]
+    assert sorted(headings) == sorted([*known, "gaussian", "self_affine", "exponential"])
+
+
+def test_all_mathematics_of_the_page_can_be_set():
+    found = re.findall(r"^```math\n(.+)\n```$", PAGE, re.MULTILINE)
+    assert len(found) > 100
+    parser = MathTextParser("path")
+    for each in found:
+        parser.parse(f"${each}$")  # raises ValueError
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("h_c/σ = W_c g^{1/2},   p_0 = 196 MPa", r"h_{c}/\sigma = W_{c} g^{1/2},\qquad p_{0} = 196 \mathrm{MPa}"),
+        ("T_{bulk,i} = T_{oil}", r"T_{\mathrm{bulk},i} = T_{\mathrm{oil}}"),
+        ("√J_{2,a} exp{−x}", r"\sqrt{J_{2,a}} \exp \{-x\}"),
+        ("W = ∬ p dx′ + Σ 1/N (1 + Σ)", r"W = \iint p \,dx' + \sum 1/N (1 + \Sigma)"),
+        ("p_f = 0 for x < −d̄", r"p_{f} = 0 \text{ for } x < -\bar{d}"),
+    ],
+)
+def test_a_line_is_converted(line, said):
+    assert latex(line) == said
