@@ -155,6 +155,7 @@ PAGES: dict[str, Source] = {
     "coupling/masters": Source("coupling.masters", ("master", "models")),
     "coupling/ssp_importers": Source("coupling.ssp_importers", ("master", "ssp", "machines")),
     "house/faults": Source("house.faults", ("faults",)),
+    "house/soak": Source("house.soak", ("evolution", "regression", "machines")),
     "house/stays": Source("house.stays", ("evolution", "control", "regression", "core")),
 }
 FORMAT = ("benchmarks.pages", "benchmarks.folders", "benchmarks.digests", "benchmarks.dependencies")  # change no figure

@@ -52,7 +52,7 @@ static inline uint64_t bits_of(double x)
 static inline double upper_half(double x) { return from_bits(bits_of(x) & UPPER_HALF); }
 
 /* a power of e: 2^(n / 256), by what share of that it is more, and the rest of the exponent beyond n ln(2) / 256 */
-struct exponential {
+struct exp_sum {
     double scale;
     double more;
     double rest;
@@ -60,7 +60,7 @@ struct exponential {
 
 /* e^(high + low) of |high| < 708 and a small low. What comes late, low and the ends of series, is added last: a processor
    does the others in the meantime. */
-static inline struct exponential exp_parts(double high, double low)
+static inline struct exp_sum exp_parts(double high, double low)
 {
     const double rounded = high * PARTS_PER_LN2 + 0x1.8p52; /* its last bits are those of n, a whole number */
     const double n = rounded - 0x1.8p52;
@@ -69,7 +69,7 @@ static inline struct exponential exp_parts(double high, double low)
     const double r = ((high - n * PART_UPPER) - n * PART_LOWER) + low; /* at most ln(2) / 512: Taylor's series */
     const double r2 = r * r;
     const double more = (part[1] + r) + r2 * ((0.5 + r * (1.0 / 6.0)) + r2 * (1.0 / 24.0));
-    const struct exponential found = {from_bits(bits_of(part[0]) + ((bits >> 8) << 52)), more, r};
+    const struct exp_sum found = {from_bits(bits_of(part[0]) + ((bits >> 8) << 52)), more, r};
     return found;
 }
 
@@ -83,7 +83,7 @@ SELDOM double exp_at_ends(double high, double low)
         return high != high ? high : 0.0;
     }
     const double half = high > 0.0 ? 64.0 : -64.0;
-    const struct exponential found = exp_parts(high - half, low);
+    const struct exp_sum found = exp_parts(high - half, low);
     return (found.scale + found.scale * found.more) * (high > 0.0 ? 0x1.425982cf597cdp+92 : 0x1.969d47321e4ccp-93);
 }
 
@@ -92,18 +92,18 @@ static inline double exp_of(double high, double low)
     if (!(fabs(high) < 708.0)) {
         return exp_at_ends(high, low);
     }
-    const struct exponential found = exp_parts(high, low);
+    const struct exp_sum found = exp_parts(high, low);
     return found.scale + found.scale * found.more;
 }
 
 /* a logarithm as a sum: a large part, and what is missing in it */
-struct logarithm {
+struct log_sum {
     double high;
     double low;
 };
 
 /* ln(x) of a normal x > 0, from its bits */
-static inline struct logarithm log_parts(uint64_t bits)
+static inline struct log_sum log_parts(uint64_t bits)
 {
     const uint64_t above = bits - LEAST_MANTISSA;
     const double *near = centre[(above >> 44) & 255];
@@ -114,19 +114,19 @@ static inline struct logarithm log_parts(uint64_t bits)
     const double series = r2 * ((r * (1.0 / 3.0) - 0.5) + r2 * ((r * (1.0 / 5.0) - 0.25) - r2 * (1.0 / 6.0)));
     const double large = n * LN2_UPPER + near[2]; /* exact */
     const double high = large + r;
-    const struct logarithm found = {high, (((large - high) + r) + (near[3] + n * LN2_LOWER)) + series};
+    const struct log_sum found = {high, (((large - high) + r) + (near[3] + n * LN2_LOWER)) + series};
     return found;
 }
 
 /* ln(x) of any finite x > 0 */
-SELDOM struct logarithm log_of(double x)
+SELDOM struct log_sum log_of(double x)
 {
     const uint64_t bits = bits_of(x);
     if (bits >= LEAST_NORMAL) {
         return log_parts(bits);
     }
-    const struct logarithm found = log_parts(bits_of(x * 0x1p54));
-    const struct logarithm scaled = {found.high - 54.0 * LN2_UPPER, found.low - 54.0 * LN2_LOWER};
+    const struct log_sum found = log_parts(bits_of(x * 0x1p54));
+    const struct log_sum scaled = {found.high - 54.0 * LN2_UPPER, found.low - 54.0 * LN2_LOWER};
     return scaled;
 }
 
@@ -138,7 +138,7 @@ SELDOM double log_at_ends(double x)
     if (!(x > 0.0 && x < INFINITY)) {
         return x == 0.0 ? -INFINITY : x > 0.0 ? x : NAN;
     }
-    const struct logarithm found = log_of(x);
+    const struct log_sum found = log_of(x);
     return found.high + found.low;
 }
 
@@ -148,7 +148,7 @@ static inline double own_log(double x)
     if (bits - LEAST_NORMAL >= NORMAL) {
         return log_at_ends(x);
     }
-    const struct logarithm found = log_parts(bits);
+    const struct log_sum found = log_parts(bits);
     return found.high + found.low;
 }
 
@@ -161,7 +161,7 @@ static inline double own_log1p(double x)
         return own_log(u);
     }
     const double lost = u > 2.0 ? 1.0 - (u - x) : x - (u - 1.0); /* in the rounding of u */
-    const struct logarithm found = log_parts(bits_of(u));
+    const struct log_sum found = log_parts(bits_of(u));
     return found.high + (found.low + lost / u);
 }
 
@@ -170,7 +170,7 @@ static inline double own_expm1(double x)
     if (!(fabs(x) < 40.0)) {
         return own_exp(x) - 1.0;
     }
-    const struct exponential found = exp_parts(x, 0.0);
+    const struct exp_sum found = exp_parts(x, 0.0);
     const double r = found.rest, r2 = r * r;
     const double more = found.more + r2 * r2 * (r * (1.0 / 120.0)); /* which counts where x is small */
     return (found.scale - 1.0) + found.scale * more;
@@ -188,12 +188,12 @@ SELDOM double power_at_ends(double x, double y)
     if (x > 0x1.fffffffffffffp+1023) {
         return y > 0.0 ? INFINITY : 0.0;
     }
-    const struct logarithm found = log_of(x);
+    const struct log_sum found = log_of(x);
     return exp_of(found.high * y, found.low * y);
 }
 
 /* x^y, given the logarithm of a normal x */
-static inline double power_of(struct logarithm of_x, double y)
+static inline double power_of(struct log_sum of_x, double y)
 {
     const double first = upper_half(of_x.high), of_y = upper_half(y);
     const double high = first * of_y; /* exact */
@@ -233,12 +233,12 @@ static inline double own_asinh(double x)
         const double square = size * size;
         const double root = sqrt(1.0 + square);
         if (size > 1.0) {
-            const struct logarithm of_sum = log_parts(bits_of(size + root));
+            const struct log_sum of_sum = log_parts(bits_of(size + root));
             found = of_sum.high + of_sum.low;
         } else {
             const double more = size + square / (1.0 + root);
             const double u = 1.0 + more;
-            const struct logarithm of_u = log_parts(bits_of(u));
+            const struct log_sum of_u = log_parts(bits_of(u));
             found = of_u.high + (of_u.low + (more - (u - 1.0)) / u);
         }
     }

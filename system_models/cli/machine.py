@@ -66,7 +66,8 @@ def _run_in(folder: Path, assembly: "Assembly", machine: "Machine", arguments: a
     unchecked: bool = arguments.unchecked
     flavour: Flavour = arguments.flavour or "embedded"
     settings = {**assembly.settings, "outputs": assembly.outputs()}
-    attributes = {"title": assembly.description, "checks": "left out" if unchecked else "error_coupling, resolved.nc"}
+    checks = "left out" if unchecked else "error_coupling, resolved.nc"
+    attributes = {"title": assembly.description, "machine": assembly.name, "checks": checks}
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as files:
         system = assembly.system(Path(files), flavour, here=True)
 

@@ -72,7 +72,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stdout.flush()  # here, so that a closed pipe is seen here and not at exit
         return code
     except ContactError as error:
-        print(f"tribofmu: {error} See {page_of(error, arguments.name)}.", file=sys.stderr)
+        print(f"tribofmu: {error} See {page_of(error, arguments.command_name)}.", file=sys.stderr)
         return 2
     except KeyboardInterrupt as interrupt:
         print(f"tribofmu: Interrupted. {interrupt}".rstrip(), file=sys.stderr)
@@ -92,7 +92,7 @@ def _parser() -> argparse.ArgumentParser:
     for name, (module, text) in COMMANDS.items():
         command = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
         module.add_arguments(command)
-        command.set_defaults(command=module.run, name=name)
+        command.set_defaults(command=module.run, command_name=name)
     return parser
 
 

@@ -34,7 +34,7 @@ def ask_before(folder: Path, origin: Mapping[str, Any], force: bool, file: str =
     before = results.attributes_of(path)
     if before is None or origin.items() <= before.items():
         return
-    old, new = (each.get("scene", each.get("title")) for each in (before, origin))
+    old, new = _name(before), _name(origin)
     if old != new and not force:
         raise ContactError(
             f"'{path}' is the result of '{old}', and this is '{new}'. Use another --out, or --force to replace it."
@@ -42,10 +42,15 @@ def ask_before(folder: Path, origin: Mapping[str, Any], force: bool, file: str =
     note(f"'{path}', a result {_of(before, origin)}, will be replaced. To keep it, stop and use another --out.")
 
 
+def _name(attributes: Mapping[str, Any]) -> str:
+    """Return what a result is of: the name of a scene or machine, or the title of another system."""
+    return str(next((attributes[key] for key in ("scene", "machine", "title") if key in attributes), "another tool"))
+
+
 def _of(before: Mapping[str, Any], origin: Mapping[str, Any]) -> str:
     """Return how the run of a result differs from another one, in words."""
-    if before.get("scene") != origin.get("scene"):
-        return f"of '{before.get('scene', before.get('title'))}'"
+    if _name(before) != _name(origin):
+        return f"of '{_name(before)}'"
     old, new = (flat(json.loads(each.get("scene_json", "{}"))) for each in (before, origin))
     changed = [key for key in {**old, **new} if old.get(key) != new.get(key)]
     if not changed:

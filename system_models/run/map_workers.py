@@ -1,7 +1,7 @@
 """Workers that solve the knots of a map: this process, others on this machine, or a cluster."""
 
 from collections.abc import Callable, Generator, Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from itertools import islice
 from multiprocessing import get_context
@@ -70,4 +70,10 @@ def done_by(
             return
         finished, asked = wait(asked, return_when=FIRST_COMPLETED)
         for future in finished:
-            yield future.result()
+            try:
+                yield future.result()
+            except BrokenExecutor:
+                raise ContactError(
+                    "A worker process has ended before its task: killed, or out of memory. What is done is kept: the "
+                    "same command goes on from there. With less memory use fewer --processes."
+                ) from None

@@ -8,7 +8,7 @@ import native_fmu
 import pytest
 
 from fmu_src.isolated.native import image
-from fmu_src.native import build, model
+from fmu_src.native import build, files, model
 
 pytestmark = [pytest.mark.fmu]
 
@@ -98,5 +98,5 @@ def test_a_universal_library_holds_its_parts_at_aligned_places() -> None:
 
 def test_the_runtime_is_all_sources_of_its_folder() -> None:
     names = {path.name for path in build.FOLDER.iterdir() if path.suffix in (".c", ".h")}
-    assert names == set(build.RUNTIME[2]) | set(build.RUNTIME[3])
+    assert names == {*build.RUNTIME[2], *build.RUNTIME[3], *files.WHERE_NEEDED}
     assert all((build.FOLDER / name).read_bytes() == data for name, data in build.runtime(3).items())

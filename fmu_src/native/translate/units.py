@@ -40,7 +40,7 @@ _TAKEN = KEYWORDS.union(  # and what headers of C and elementary.h have
         "why exp log pow sqrt fabs floor ceil round gamma time index j0 j1 y0 y1 jn yn tanh sinh remainder signal "
         "squared cubed fourth_power eighth_power fourth_root power_0_75 power_1_5 smaller larger centre from_bits "
         "bits_of upper_half exp_parts exp_at_ends exp_of log_parts log_of log_at_ends power_at_ends power_of "
-        "power_of_two exponential logarithm refuse whole_number place_inside memcpy memset ratio_of",
+        "power_of_two exp_sum log_sum refuse whole_number place_inside memcpy memset ratio_of",
     )
 )
 
