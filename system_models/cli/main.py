@@ -13,7 +13,7 @@ from typing import Protocol
 
 from contact_core.errors import ContactError
 
-from . import build, check, cosim, explain, fit, listing, run, stribeck, surfaces, sweep
+from . import build, check, cosim, explain, fit, listing, run, stribeck, surface_file, surfaces, sweep
 from . import map as mapping
 
 
@@ -32,6 +32,7 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "list": (listing, "name the shipped scenes and machines"),
     "explain": (explain, "name the laws of a scene, the sources of its numbers, and what it leaves out"),
     "surfaces": (surfaces, "what a scene's grid shows of its surfaces"),
+    "surface-file": (surface_file, "make a surface that an instrument has measured ready for a scene"),
     "run": (run, "run a scene's contact, or a machine, through its duty"),
     "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),
     "sweep": (sweep, "run a scene with many values of some of its keys"),
