@@ -275,7 +275,7 @@ def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
 
 
 def _beside(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """Return the table of a set with the files that lie beside the set's own, `file = "heights.npy"`, by their paths."""
+    """Return the table of a set with each `file = "heights.npy"` that lies beside the set's own file by its path."""
 
     def found(key: str, value: Any) -> Any:
         if isinstance(value, Mapping):

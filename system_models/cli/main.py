@@ -13,7 +13,7 @@ from typing import Protocol
 
 from contact_core.errors import ContactError
 
-from . import build, check, cosim, explain, fit, listing, run, stribeck, surface_file, surfaces, sweep
+from . import build, check, cosim, explain, fit, listing, log, run, stribeck, surface_file, surfaces, sweep
 from . import map as mapping
 
 
@@ -37,6 +37,7 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),
     "sweep": (sweep, "run a scene with many values of some of its keys"),
     "fit": (fit, "fit constants of a scene to measured films, friction or wear"),
+    "log": (log, "make a duty and data to fit of a test rig's text log"),
     "map": (mapping, "make the map of a scene for film.model = 'map', by solved contacts"),
     "build": (build, "build the FMU of a scene, for another tool"),
     "check": (check, "give a verdict per rule on any FMU"),

@@ -16,13 +16,15 @@ _FORMS = ("none", "plane", "curvature")
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.add_argument(
-        "file", metavar="FILE", help="heights as an instrument writes them: .al3d, .sdf, .opd, .x3p, .zmg, .sur, .plux, ..."
+        "file",
+        metavar="FILE",
+        help="heights of an instrument: .al3d, .sdf, .opd, .x3p, .zmg, .sur, .plux, ...",
     )
     parser.add_argument(
         "--form",
         choices=_FORMS,
         default="plane",
-        help="least-squares form to remove: the mean alone, a plane, or with curvature, as of balls (default: %(default)s)",
+        help="least-squares form to remove: the mean, a plane, or one with curvature, as of balls (default: %(default)s)",
     )
     parser.add_argument(
         "--window",
@@ -34,8 +36,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--shortest",
         metavar="S",
-        help="shortest wave to keep, e.g. '2 um': two nodes of the finest grid that you mean to use; what is shorter is "
-        "roughness below the grid (default: all)",
+        help="shortest wave to keep, e.g. '2 um': two nodes of the finest grid that you mean to use; what is shorter "
+        "is roughness below the grid (default: all)",
     )
     parser.add_argument(
         "--resolution", metavar="R", help="shortest wave that the instrument resolves (default: two of its points)"
@@ -47,7 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="axis of the image that lies along the entrainment (default: %(default)s)",
     )
     parser.add_argument("--unit", metavar="UNIT", help="of a file that does not say its own: m, mm, um, nm")
-    parser.add_argument("--size", metavar=("X", "Y"), nargs=2, help="of a file that does not say its own: '1 mm' '1 mm'")
+    parser.add_argument("--size", metavar=("X", "Y"), nargs=2, help="of a file that does not say it: '1 mm' '1 mm'")
     parser.add_argument("--out", metavar="NAME", help="writes NAME.npy and NAME.toml (default: the name of FILE)")
 
 

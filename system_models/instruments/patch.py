@@ -109,9 +109,7 @@ def statistics(heights: Array) -> Statistics:
     return Statistics(sq, float(np.abs(z).mean()), float(np.mean(z**3)) / sq**3 if sq > 0.0 else 0.0)
 
 
-def _check(
-    image: HeightImage, longest: float | None, shortest: float | None, resolved: float, finest: float
-) -> None:
+def _check(image: HeightImage, longest: float | None, shortest: float | None, resolved: float, finest: float) -> None:
     if image.missing > MOST_MISSING:
         raise ContactError(
             f"'{image.source}' has no height at {100 * image.missing:.3g} % of its points; up to "
@@ -144,7 +142,7 @@ def without_form(image: HeightImage, form: str) -> tuple[Array, Removed]:
     right = vy.T @ np.where(known, z, 0.0) @ vx
     matrix = np.array([[moments[q + s, p + r] for r, s in powers] for p, q in powers])
     found = dict(zip(powers, np.linalg.solve(matrix, np.array([right[q, p] for p, q in powers])), strict=True))
-    polynomial: Array = sum(c * np.outer(vy[:, q], vx[:, p]) for (p, q), c in found.items())  # type: ignore[assignment]
+    polynomial: Array = sum(c * np.outer(vy[:, q], vx[:, p]) for (p, q), c in found.items())
     slope = (2.0 * found.get((1, 0), 0.0) / lx, 2.0 * found.get((0, 1), 0.0) / ly)
     curvature = (-8.0 * found.get((2, 0), 0.0) / lx**2, -8.0 * found.get((0, 2), 0.0) / ly**2)
     radius = (1.0 / curvature[0] if curvature[0] else math.inf, 1.0 / curvature[1] if curvature[1] else math.inf)
@@ -220,20 +218,17 @@ def _below(variances: Array, lengths: Array, longest: float, resolution: float) 
         return float(variances[(lengths >= low * (1.0 - 1e-9)) & (lengths < high * (1.0 - 1e-9))].sum())
 
     if longest < 2.0**_OCTAVES * resolution * (1.0 - 1e-9):
-        return Below(
-            None, longest, resolution, 0.0,
-            f"the image resolves waves down to {1e6 * resolution:.3g} um, and its patch shows them down to "
-            f"{1e6 * longest:.3g} um: a --shortest of {1e6 * 2.0**_OCTAVES * resolution:.3g} um or more leaves waves to measure",
-        )  # fmt: skip
-    total, last, before = (
-        between(resolution, longest),
-        between(resolution, 2.0 * resolution),
-        between(2.0 * resolution, 4.0 * resolution),
-    )
+        why = (
+            f"the image resolves waves down to {1e6 * resolution:.3g} um, and the patch shows them down to "
+            f"{1e6 * longest:.3g} um; --shortest of {1e6 * 2.0**_OCTAVES * resolution:.3g} um or more leaves two octaves"
+        )
+        return Below(None, longest, resolution, 0.0, why)
+    total = between(resolution, longest)
+    last, before = between(resolution, 2.0 * resolution), between(2.0 * resolution, 4.0 * resolution)
     if last > before:
-        return Below(
-            None, longest, resolution, last / total,
+        why = (
             f"the octave of waves from {1e6 * resolution:.3g} um has {last / before:.2g} times the variance of the next "
-            "longer one, as noise of an instrument has, and roughness has not: give its --resolution",
-        )  # fmt: skip
+            "longer one, as noise of an instrument has and roughness has not; give its --resolution"
+        )
+        return Below(None, longest, resolution, last / total, why)
     return Below(math.sqrt(total), longest, resolution, last / total if total else 0.0)

@@ -39,14 +39,15 @@ def set_text(name: str, image: HeightImage, patch: Patch) -> str:
     length = 2.0 * z.Sq / patch.slope
     layer = _layer(patch)
     body = [
+        'model = "gaussian"',
         'rq = "0 nm"  # chosen: all roughness is that of the file',
         f'correlation_length = "{1e6 * length:.4g} um"  # 2 Sq / rms slope of the file; of no effect with rq = 0',
         "seed = 1  # chosen: of no effect with rq = 0",
-        f'heights = {{ file = "{name}.npy", spacing = "{1e6 * patch.spacing!r} um", unit = "nm", beyond = "mirrored" }}',
+        f'heights = {{ file = "{name}.npy", spacing = "{1e6 * patch.spacing!r} um", unit = "nm" }}',
         *([layer] if layer else ["# no microroughness: " + _below(patch)]),
     ]
     tables = "".join(f"\n[{name}.{each}]  # measured: {image.source}\n" + "\n".join(body) + "\n" for each in _BODIES)
-    return f"# A measured surface, for one body or the other: set = \"{name}.toml:{name}\".\n{told}{tables}"
+    return f'# A measured surface, for one body or the other: set = "{name}.toml:{name}".\n{told}{tables}'
 
 
 def write(name: str, folder: Path, image: HeightImage, patch: Patch) -> list[Path]:
@@ -81,8 +82,8 @@ def _below(patch: Patch) -> str:
         return f"roughness below the patch is not known from this file: {below.why}"
     return (
         f"roughness below the patch: {1e9 * below.rms:.3g} nm rms of waves from {1e6 * below.longest:.4g} down to "
-        f"{1e6 * below.resolution:.4g} um; {100 * below.last_octave:.2g} % of the variance is in the shortest octave of "
-        "these, shorter ones are not in this file"
+        f"{1e6 * below.resolution:.4g} um; {100 * below.last_octave:.2g} % of the variance is in the shortest octave "
+        "of these, shorter ones are not in this file"
     )
 
 
