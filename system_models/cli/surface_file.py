@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--form",
         choices=_FORMS,
         default="plane",
-        help="least-squares form to remove: the mean, a plane, or one with curvature, as of balls (default: %(default)s)",
+        help="least-squares form to remove: the mean, a plane, or with curvature, as of balls (default: %(default)s)",
     )
     parser.add_argument(
         "--window",

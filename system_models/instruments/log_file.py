@@ -81,8 +81,8 @@ def read(path: Path, names: Mapping[str, tuple[str, str | None]]) -> Log:
     steps = [step for step in steps if step.rows]
     if not steps:
         raise ContactError(
-            f"'{path}' has no table with a known column, such as 'Rolling Speed (mm/s)' or 'Traction Coeff (-)'. Export "
-            "it as text with headers, or name its columns by --column 'HEADER=QUANTITY [unit]'."
+            f"'{path}' has no table with a known column, such as 'Rolling Speed (mm/s)' or 'Traction Coeff (-)'. "
+            "Export it as text with headers, or name its columns by --column 'HEADER=QUANTITY [unit]'."
         )
     return Log(path.name, steps, list(left))
 

@@ -1,7 +1,7 @@
 """A duty for `tribofmu run` and data for `tribofmu fit` from a log of a test rig.
 
-Body 1 is the ball, or what the rig turns first, body 2 the disc. Steps follow one another without a pause. An input that
-a step holds, but for scatter, has its mean there: each value of its own would be another operating point, to be solved.
+Body 1 is the ball, body 2 the disc. Steps follow one another without a pause. An input that a step holds, but for
+scatter, has its mean there: each value of its own would be another operating point, to be solved.
 """
 
 import csv
@@ -37,7 +37,7 @@ class Row:
 def rows_of(log: Log, chosen: Sequence[int], faster: int, srr: float | None) -> list[Row]:
     """Return the rows of the steps of some numbers, from 1, of all without any.
 
-    `faster` is the body that a positive slide-to-roll ratio makes the faster one; `srr` is the ratio for a log that does
+    `faster` is the body that a positive slide-to-roll ratio makes the faster one; `srr` is the ratio of a log that does
     not say it. Raises ContactError for a step that is not there, or speeds that are not told.
     """
     bad = [number for number in chosen if not 1 <= number <= len(log.steps)]

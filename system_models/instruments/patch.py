@@ -220,15 +220,15 @@ def _below(variances: Array, lengths: Array, longest: float, resolution: float) 
     if longest < 2.0**_OCTAVES * resolution * (1.0 - 1e-9):
         why = (
             f"the image resolves waves down to {1e6 * resolution:.3g} um, and the patch shows them down to "
-            f"{1e6 * longest:.3g} um; --shortest of {1e6 * 2.0**_OCTAVES * resolution:.3g} um or more leaves two octaves"
+            f"{1e6 * longest:.3g} um; --shortest of {1e6 * 2.0**_OCTAVES * resolution:.3g} um or more leaves 2 octaves"
         )
         return Below(None, longest, resolution, 0.0, why)
     total = between(resolution, longest)
     last, before = between(resolution, 2.0 * resolution), between(2.0 * resolution, 4.0 * resolution)
     if last > before:
         why = (
-            f"the octave of waves from {1e6 * resolution:.3g} um has {last / before:.2g} times the variance of the next "
-            "longer one, as noise of an instrument has and roughness has not; give its --resolution"
+            f"the octave of waves from {1e6 * resolution:.3g} um has {last / before:.2g} times the variance of the "
+            "next longer one, as noise of an instrument has and roughness has not; give its --resolution"
         )
         return Below(None, longest, resolution, last / total, why)
     return Below(math.sqrt(total), longest, resolution, last / total if total else 0.0)
