@@ -11,6 +11,7 @@ Each package imports only from those below it:
     run/        one contact through its duty, Stribeck curves, and what simulations report
     master/     couples any FMUs and controls its own error
     parts/      components of machines that have no contact
+    instruments/ files of instruments: measured surfaces, logs of rigs
     fmu/        a running FMU of FMI 2.0 or 3.0 on the host's side
     numerics/   extrapolation, iteration and error control of the master, on arrays
     store/      checkpoints and results on disk

@@ -303,7 +303,20 @@ def with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
         where = f" in '{file}'" if _OF_FILE in chosen else ""
         known = f"Known are {', '.join(sets)}." if sets else f"There is no [NAME.{path}] in that file."
         raise SceneError(f"[{path}] has no set '{name}'{where}.{did_you_mean(name, list(sets))} {known}")
-    return _merged(sets[name], table, path)
+    own = _beside(sets[name], file.parent) if _OF_FILE in chosen else sets[name]
+    return _merged(own, table, path)
+
+
+def _beside(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """Return the table of a set with each `file = "heights.npy"` that lies beside the set's own file by its path."""
+
+    def found(key: str, value: Any) -> Any:
+        if isinstance(value, Mapping):
+            return _beside(value, folder)
+        there = key == "file" and isinstance(value, str) and (folder / value).is_file()
+        return str(folder / value) if there else value
+
+    return {key: found(key, value) for key, value in table.items()}
 
 
 def _for_model(table: Mapping[str, Any], path: str, model: str) -> dict[str, Any]:

@@ -4,6 +4,7 @@
     listing     list: what is shipped
     new         new: a commented scene to start from
     explain     explain: laws, numbers and their sources, what is left out, what to trust
+    surface_file surface-file: a measured surface made ready for a scene
     surfaces    surfaces: what a grid shows of the surfaces
     run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
     report      report: a run as one HTML page
@@ -11,6 +12,7 @@
     stribeck    stribeck: Stribeck curves
     sweep       sweep: a scene with many values of its keys
     fit         fit: constants of a scene from measured numbers
+    log         log: a duty and data of a rig's text log
     map         map: a scene's map for film.model = "map"
     build       build: the FMU of a scene
     check       check: verdicts on an FMU

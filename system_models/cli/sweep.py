@@ -11,6 +11,8 @@ from .map import executor_arguments, processes_of
 from .scenes import refuse_machine
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from ..sweep.plan import Plan
     from ..sweep.points import Outcome, Task
 
@@ -92,6 +94,17 @@ def _report(task: "Task", plan: "Plan", outcomes: "dict[int, Outcome]", folder: 
     said = report.lines(plan, dataset, found)
     print(dataset.attrs["title"], report.table(plan, dataset), *said, sep="\n")
     netcdf = write(dataset, folder, "sweep", table=rows(plan, dataset))
+    netcdf += _means(plan, dataset, folder)
     print(f"Written: {', '.join(map(str, [*netcdf, report.write_picture(plan, dataset, folder / 'sweep.png')]))}")
     refused = any(outcome.refused for outcome in outcomes.values())
     return 1 if refused or not bool(dataset["valid"].values.all()) else 0
+
+
+def _means(plan: "Plan", dataset: "xr.Dataset", folder: Path) -> list[Path]:
+    """Write means and bands over patches of a surface, if the plan has some."""
+    from ..store.results import write_csv
+    from ..sweep import ensemble, report
+
+    if not ensemble.patches_of(plan):
+        return []
+    return [write_csv(ensemble.averaged(plan, dataset, report.OUTPUTS), folder / "patches.csv")]

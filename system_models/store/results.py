@@ -89,9 +89,15 @@ def write(
     whole = dataset if maps is None else dataset.merge(maps, combine_attrs="override")
     whole.to_netcdf(unfinished, engine="h5netcdf")
     unfinished.replace(netcdf)  # a kill leaves the old file or the new one
+    write_csv(rows, text)
+    return [netcdf, text]
+
+
+def write_csv(rows: xr.Dataset, path: Path) -> Path:
+    """Write a dataset as CSV, a row for each point of its dimensions, and return its path."""
     columns = xr.broadcast(*(rows[column] for column in (*rows.dims, *rows.data_vars)))
-    with text.open("w", encoding="utf-8", newline="") as file:
+    with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(f"{column.name} [{column.attrs['units']}]" for column in columns)
         writer.writerows(zip(*(column.values.ravel().tolist() for column in columns), strict=True))
-    return [netcdf, text]
+    return path

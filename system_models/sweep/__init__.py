@@ -3,6 +3,7 @@
     plan         what is varied: grids, choices, and ranges with samples in them
     points       one run of the scene for each point, kept in a file of its own; all of them as one Dataset
     sensitivity  Sobol indices: which share of an output's variance is due to which key
+    ensemble     mean and band over patches of one surface
     report       table, sentences and picture
 
 A point is a whole run, as `tribofmu run` makes it. Imports run from the bottom of this list to its top.

@@ -119,7 +119,7 @@ def factor_of(text: str) -> Factor:
     key, equals, values = (part.strip() for part in text.partition("="))
     if not key or not equals or not values:
         raise ContactError(f"--vary '{text}' is not KEY=VALUES, such as {_EXAMPLES}.")
-    if ":" not in values:
+    if ":" not in values or ".toml:" in values:  # a set of a file is no range
         choices = tuple(part.strip() for part in values.split(","))
         if len({*choices}) < len(choices) or not all(choices) or len(choices) < 2:
             raise ContactError(f"--vary {key} = '{values}' must be two or more different values, apart by commas.")

@@ -10,6 +10,7 @@ import xarray as xr
 
 from ..run.report import with_error
 from ..store.results import ERROR
+from .ensemble import averaged, patches_of
 from .plan import Plan
 from .points import ends
 from .sensitivity import Indices
@@ -85,6 +86,8 @@ def lines(plan: Plan, dataset: xr.Dataset, found: list[Indices]) -> list[str]:
             for column, cell in zip(columns, [each.output, each.key, *texts], strict=True):
                 column.append(cell)
         said.append(_aligned(columns))
+    if patches_of(plan):
+        said += _means(plan, dataset)
     reasons = [reason for reason in dataset["refused"].values.ravel() if reason]
     if reasons:
         said.append(f"Refused: {len(reasons)} of {dataset['refused'].size} points. The first: {reasons[0]}")
@@ -97,6 +100,30 @@ def lines(plan: Plan, dataset: xr.Dataset, found: list[Indices]) -> list[str]:
         else f"Validity: {bad} of {runs.size - len(reasons)} runs have invalid rows."
     )
     return said
+
+
+def _means(plan: Plan, dataset: xr.Dataset) -> list[str]:
+    """Return a heading and the table of means over patches, a row for each choice of the other keys."""
+    keys = patches_of(plan)
+    found = averaged(plan, dataset, [column[2] for column in shown(dataset)])
+    others = [factor for factor in plan.grid if factor.key not in keys]
+    counts = found["count"].values.ravel()
+    if plan.sampled or counts.size > _MOST_ROWS:
+        return []
+    rows = list(itertools.product(*(factor.choices for factor in others)))
+    columns = [[factor.key, *(row[k] for row in rows)] for k, factor in enumerate(others)]
+    for heading, unit, name, factor, digits in shown(dataset):
+        mean, band, sd = (factor * found[f"{name}{end}"].values.ravel() for end in ("", "_band", "_sd"))
+        cells = [
+            f"{with_error(m, b, digits)} (sd {s:.2g})" if n > 1 else "one patch"
+            for m, b, s, n in zip(mean, band, sd, counts, strict=True)
+        ]
+        columns.append([f"{heading} [{unit}]" if unit else heading, *cells])
+    heading = (
+        f"Mean over {int(counts.max())} of {', '.join(keys)}, its band of 95 % (Student's t), and the standard "
+        "deviation between them; each run's stated error comes on top."
+    )
+    return [heading, _aligned(columns)]
 
 
 def write_picture(plan: Plan, dataset: xr.Dataset, file: Path) -> Path:

@@ -11,6 +11,7 @@ from comparison import approx
 from contact_core.errors import ContactError
 from system_models.cli.main import main
 from system_models.sweep import points
+from system_models.sweep.ensemble import averaged, patches_of
 from system_models.sweep.plan import Plan, plan_of
 from system_models.sweep.points import Outcome, Task, gathered, solve
 from system_models.sweep.sensitivity import indices
@@ -128,3 +129,16 @@ def test_runs_of_unlike_length_are_kept_at_their_end(tmp_path: Path) -> None:
     found = gathered(task, plan, outcomes)
     assert found["wear_depth_1"].dims == ("operation.duration",)
     assert found["wear_depth_1"].values[0] < found["wear_depth_1"].values[1]
+
+
+def test_sets_of_files_are_choices_and_patches_of_a_surface_have_a_mean_and_a_band() -> None:
+    plan = plan_of(["surface_2.set=a.toml:a,b.toml:b,c.toml:c", "operation.load=10 N:20 N:2"], None, "lhs")
+    assert plan.shape == (3, 2)
+    values = np.array([[0.10, 0.20], [0.11, 0.20], [0.12, np.nan]])
+    runs = xr.Dataset({"friction_coefficient": (("surface_2.set", "operation.load"), values, {"units": "1"})})
+    found = averaged(plan, runs, ["friction_coefficient"])
+    assert found["friction_coefficient"].values == approx([0.11, 0.20], rel=1e-12)
+    assert found["friction_coefficient_sd"].values == approx([0.01, 0.0], rel=1e-9, abs=1e-15)
+    assert float(found["friction_coefficient_band"][0]) == approx(4.302653 * 0.01 / math.sqrt(3.0), rel=1e-6)
+    assert found["count"].values.tolist() == [3, 2]
+    assert patches_of(plan_of(["surface_2.rq=1 nm,2 nm"], None, "lhs")) == ()

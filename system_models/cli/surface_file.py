@@ -1,0 +1,100 @@
+"""The command `tribofmu surface-file`: makes a measured surface ready for a scene."""
+
+import argparse
+import re
+from pathlib import Path
+
+from contact_core.errors import ContactError
+from contact_core.scene import units
+
+from .console import output_folder
+
+_NAME = re.compile(r"[a-z0-9_-]+$")
+_FORMS = ("none", "plane", "curvature")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    parser.add_argument(
+        "file",
+        metavar="FILE",
+        help="heights of an instrument: .al3d, .sdf, .opd, .x3p, .zmg, .sur, .plux, ...",
+    )
+    parser.add_argument(
+        "--form",
+        choices=_FORMS,
+        default="plane",
+        help="least-squares form to remove: the mean, a plane, or with curvature, as of balls (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--window",
+        metavar="LOW:HIGH",
+        nargs=2,
+        help="part of the image along its x and y, from its first point: '0.1 mm:0.9 mm' '0 mm:0.5 mm' (default: all)",
+    )
+    parser.add_argument("--longest", metavar="L", help="longest wave to keep, e.g. '0.25 mm' (default: all)")
+    parser.add_argument(
+        "--shortest",
+        metavar="S",
+        help="shortest wave to keep, e.g. '2 um': two nodes of the finest grid that you mean to use; what is shorter "
+        "is roughness below the grid (default: all)",
+    )
+    parser.add_argument(
+        "--resolution", metavar="R", help="shortest wave that the instrument resolves (default: two of its points)"
+    )
+    parser.add_argument(
+        "--along",
+        choices=("x", "y"),
+        default="x",
+        help="axis of the image that lies along the entrainment (default: %(default)s)",
+    )
+    parser.add_argument("--unit", metavar="UNIT", help="of a file that does not say its own: m, mm, um, nm")
+    parser.add_argument("--size", metavar=("X", "Y"), nargs=2, help="of a file that does not say it: '1 mm' '1 mm'")
+    parser.add_argument("--out", metavar="NAME", help="writes NAME.npy and NAME.toml (default: the name of FILE)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Read, prepare and write the surface; return 0."""
+    from ..instruments import patch, surface_file, surface_set
+
+    folder, name = _out(arguments)
+    size = tuple(_length(text, "--size") for text in arguments.size) if arguments.size else None
+    image = surface_file.read(Path(arguments.file), arguments.unit, size)  # type: ignore[arg-type]
+    if arguments.window:
+        image = image.window(*(_window(text) for text in arguments.window))
+    if arguments.along == "y":
+        image = image.turned()
+    longest, shortest, resolution = (
+        _length(given, f"--{option}") if given is not None else None
+        for option in ("longest", "shortest", "resolution")
+        for given in [getattr(arguments, option)]
+    )
+    found = patch.patch_of(image, arguments.form, longest, shortest, resolution)
+    print(*surface_set.lines(image, found), sep="\n")
+    written = surface_set.write(name, folder, image, found)
+    print(f"Written: {', '.join(map(str, written))}")
+    print(f"A scene uses it by --set surface_2.set='{written[1]}:{name}', or set = ... in its [surface_2].")
+    return 0
+
+
+def _out(arguments: argparse.Namespace) -> tuple[Path, str]:
+    """Return the folder and the name of the set, in small letters as sets are."""
+    given = Path(arguments.out or Path(arguments.file).stem)
+    name = re.sub(r"[^a-z0-9_-]+", "_", given.name.lower()) if not arguments.out else given.name
+    if not _NAME.match(name):
+        raise ContactError(f"--out = '{arguments.out}' must end in a name of small letters, digits, '_' and '-'.")
+    return output_folder(str(given.parent), ""), name
+
+
+def _length(text: str, option: str) -> float:
+    value = units.parse(text, "m", option)
+    if value <= 0.0:
+        raise ContactError(f"{option} = {text} must be above 0.")
+    return value
+
+
+def _window(text: str) -> tuple[float, float]:
+    low, colon, high = text.partition(":")
+    if not colon:
+        raise ContactError(f"--window '{text}' is not LOW:HIGH, such as '0.1 mm:0.9 mm'.")
+    return units.parse(low.strip(), "m", "--window"), units.parse(high.strip(), "m", "--window")

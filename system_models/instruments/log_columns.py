@@ -1,0 +1,181 @@
+"""Columns of the text logs of test rigs: which is which quantity, in which unit.
+
+No specification of these exports is public. The names are those of headers that programs of users look for: "Rolling
+Speed (mm/s)", "Average Film (nm)", "Traction Coeff (-)", "Lube Temp (°C)", "Ball Load (N)", "SRR (%)", "Step Time (s)"
+of the text files of PCS Instruments' MTM and EHD rigs. Users add others.
+"""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from contact_core.errors import ContactError
+from contact_core.quantities import TABLE
+from contact_core.scene import units
+from contact_core.scene.toml import did_you_mean
+
+# beside the inputs and outputs of a contact: what a rig says about speeds
+OF_RIGS = {"time": "s", "rolling_speed": "m/s", "sliding_speed": "m/s", "srr": "1"}
+
+# name of a column in small letters: its quantity. Where two name one quantity, the first of this list is taken
+NAMES = {
+    "step time": "time",
+    "time": "time",
+    "test time": "time",
+    "elapsed time": "time",
+    "ball load": "load",
+    "load": "load",
+    "normal load": "load",
+    "applied load": "load",
+    "rolling speed": "rolling_speed",
+    "mean speed": "rolling_speed",
+    "entrainment speed": "rolling_speed",
+    "sliding speed": "sliding_speed",
+    "srr": "srr",
+    "slide roll ratio": "srr",
+    "slide-roll ratio": "srr",
+    "slide-to-roll ratio": "srr",
+    "traction coeff": "friction_coefficient",
+    "traction coefficient": "friction_coefficient",
+    "friction coeff": "friction_coefficient",
+    "friction coefficient": "friction_coefficient",
+    "lube temp": "temperature",
+    "lubricant temp": "temperature",
+    "oil temp": "temperature",
+    "pot temp": "temperature",
+    "temperature": "temperature",
+    "average film": "h_c",
+    "film thickness": "h_c",
+    "central film": "h_c",
+    "film": "h_c",
+}
+# columns that are known and not taken, and why
+NOT_TAKEN = {
+    "speed": "it may be of rolling, sliding, the ball or the disc",
+    "ball speed": "rolling speed and slide-to-roll ratio say it; else name it as speed_1",
+    "disc speed": "rolling speed and slide-to-roll ratio say it; else name it as speed_2",
+    "traction force": "the coefficient says it, without a sign of its own",
+    "friction force": "the coefficient says it, without a sign of its own",
+    "wear": "it is the approach of both bodies, by wear of either, films and heat; name it as wear_depth_1 or "
+    "wear_depth_2 if one alone wears",
+    "ecr": "the contact has no such output; it is not the share of the load that solids carry",
+}
+_HEADER = re.compile(r"\s*(.*?)\s*(?:[\[(]([^\[\]()]*)[\])])?\s*$")
+_NAMED = re.compile(r"\s*(\w*)\s*(?:\[([^\]]*)\])?\s*$")
+_UNITS = {"-": "1", "°c": "degC", "degc": "degC", "deg c": "degC", "c": "degC", "secs": "s", "sec": "s", "mins": "min"}
+_NUMBERS = {"friction_coefficient"}  # quantities that need no unit
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column that is taken: its header, its quantity, and the unit of its numbers."""
+
+    header: str
+    quantity: str
+    unit: str
+
+    @property
+    def si(self) -> str:
+        """Unit in SI of the quantity."""
+        return OF_RIGS.get(self.quantity) or TABLE[self.quantity].unit
+
+    def value(self, number: float) -> float:
+        """Return a number of the column in SI."""
+        return units.parse(f"{number!r} {self.unit}", "" if self.si == "1" else self.si, f"'{self.header}'")
+
+
+def named(texts: Sequence[str]) -> dict[str, tuple[str, str | None]]:
+    """Return quantity and unit by header of texts "HEADER=quantity [unit]"; an empty quantity leaves a column out.
+
+    Raises ContactError for a text that is not so, or names no quantity.
+    """
+    found: dict[str, tuple[str, str | None]] = {}
+    for text in texts:
+        header, equals, told = text.rpartition("=")
+        match = _NAMED.match(told)
+        if not equals or not header.strip() or not match:
+            raise ContactError(
+                f"--column '{text}' is not HEADER=QUANTITY, such as 'Speed (m/s)=rolling_speed', or "
+                "'Speed=rolling_speed [m/s]' where the header has no unit."
+            )
+        known = [*OF_RIGS, *(q.name for q in TABLE.values() if q.kind == "Real")]
+        if match[1] and match[1] not in known:
+            raise ContactError(
+                f"--column '{text}': there is no quantity '{match[1]}'.{did_you_mean(match[1], known)} A rig has "
+                f"{', '.join(OF_RIGS)}, load, temperature, and outputs of the contact such as h_c."
+            )
+        found[" ".join(header.split()).lower()] = (match[1], match[2])
+    return found
+
+
+def taken(headers: Sequence[str], names: Mapping[str, tuple[str, str | None]]) -> tuple[list[Column | None], list[str]]:
+    """Return the column that each header is, None of one that is not taken, and a sentence on each of these.
+
+    `names` are those of `named`. Raises ContactError for a unit that is not said or cannot be that of the quantity.
+    """
+    rank = {name: i for i, name in enumerate(NAMES)}
+    best: dict[str, tuple[int, int]] = {}  # of each quantity: rank and place
+    told: list[tuple[str, str | None]] = []
+    for i, header in enumerate(headers):
+        name, unit = _parts(header)
+        own = names.get(" ".join(header.split()).lower(), names.get(name))
+        told.append((NAMES.get(name, ""), unit) if own is None else (own[0], own[1] if own[1] is not None else unit))
+        quantity = told[-1][0]
+        if quantity:
+            best[quantity] = min(best.get(quantity, (len(rank), i)), (-1 if own else rank[name], i))
+    columns: list[Column | None] = []
+    left: list[str] = []
+    for i, (header, (quantity, unit)) in enumerate(zip(headers, told, strict=True)):
+        chosen = bool(quantity) and best[quantity][1] == i
+        columns.append(_column(header, quantity, unit) if chosen else None)
+        if not chosen and header.strip():
+            left.append(f"'{header.strip()}': {_why(header, quantity, names, headers, best)}")
+    return columns, left
+
+
+def known(cells: Sequence[str], names: Mapping[str, tuple[str, str | None]]) -> bool:
+    """Return whether cells are a header: none a number, and one at least the name of a column."""
+    found = [_parts(cell)[0] for cell in cells]
+    whole = [" ".join(cell.split()).lower() for cell in cells]
+    return any(name in NAMES or name in names or all_ in names for name, all_ in zip(found, whole, strict=True))
+
+
+def _parts(header: str) -> tuple[str, str | None]:
+    """Return the name of a header in small letters, and its unit if it says one."""
+    match = _HEADER.match(header)
+    assert match  # any text does
+    return " ".join(match[1].split()).lower(), match[2]
+
+
+def _column(header: str, quantity: str, unit: str | None) -> Column:
+    if unit is None and quantity in _NUMBERS:
+        unit = "1"
+    if unit is None or not unit.strip():
+        example = "%" if quantity == "srr" else OF_RIGS.get(quantity) or TABLE[quantity].unit
+        raise ContactError(
+            f"Column '{header.strip()}' does not say its unit. Give it by --column '{header.strip()}={quantity} "
+            f"[{example}]', or leave the column out by --column '{header.strip()}='."
+        )
+    column = Column(header.strip(), quantity, _UNITS.get(unit.strip().lower(), unit.strip().replace("μ", "u")))
+    try:
+        column.value(1.0)
+    except ContactError as error:
+        raise ContactError(f"Column '{header.strip()}' cannot be {quantity}: {error}") from None
+    return column
+
+
+def _why(
+    header: str,
+    quantity: str,
+    names: Mapping[str, tuple[str, str | None]],
+    headers: Sequence[str],
+    best: Mapping[str, tuple[int, int]],
+) -> str:
+    """Return why a column is not taken."""
+    name = _parts(header)[0]
+    if quantity:
+        return f"'{headers[best[quantity][1]].strip()}' is taken for {quantity}"
+    if name in names or " ".join(header.split()).lower() in names:
+        return "left out by --column"
+    reason = next((why for known, why in NOT_TAKEN.items() if re.match(rf"{known}( \d)?$", name)), "")
+    return reason or f"not known; name it by --column '{header.strip()}=QUANTITY'"

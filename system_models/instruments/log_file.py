@@ -1,0 +1,126 @@
+"""Reads the steps of a test rig's text log: tables of numbers between lines of text.
+
+    Step 1 "rub" started at 10:00:00
+    Step Time (s)  Rolling Speed (mm/s)  SRR (%)  Traction Coeff (-)
+    0              100.1                 50.0     0.081
+
+A table begins with a line in which a column is known and ends with the first line that is no row of it. Cells are apart
+by tabs, semicolons or commas.
+"""
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from contact_core.errors import ContactError
+
+from . import log_columns
+from .log_columns import Column
+
+_NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$")
+_TITLE = re.compile(r"\s*step\b(?!\s*(time|type))", re.IGNORECASE)
+
+
+@dataclass
+class Step:
+    """One table of a log: numbers in SI by quantity, nan where a cell is empty."""
+
+    title: str
+    columns: list[Column | None]
+    rows: list[dict[str, float]] = field(default_factory=list)
+
+    def has(self, quantity: str) -> bool:
+        """Return whether a quantity is in the table."""
+        return any(column is not None and column.quantity == quantity for column in self.columns)
+
+
+@dataclass
+class Log:
+    """A text log: its steps, and what was not taken."""
+
+    name: str
+    steps: list[Step]
+    left_out: list[str]  # sentences on columns, each once
+
+    def taken(self) -> list[str]:
+        """Return words on each column that is taken, each once."""
+        found = [column for step in self.steps for column in step.columns if column is not None]
+        return list(dict.fromkeys(f"'{each.header}' as {each.quantity} [{each.unit}]" for each in found))
+
+
+def read(path: Path, names: Mapping[str, tuple[str, str | None]]) -> Log:
+    """Return the log in a file; `names` as `log_columns.named` gives them.
+
+    Raises ContactError if it cannot be read, has no table, or does not say a unit.
+    """
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise ContactError(f"The log '{path}' cannot be read: {error.strerror}.") from None
+    lines = _text(content).splitlines()
+    mark = next((mark for mark in "\t;" if any(_is_header(line, mark, names) for line in lines)), ",")
+    _check_decimals(path, lines, mark)
+    steps: list[Step] = []
+    left: dict[str, None] = {}
+    title, step = "", None
+    for line in lines:
+        cells = [cell.strip().strip('"') for cell in line.split(mark)]
+        if step is not None and _is_row(cells):
+            step.rows.append(_row(cells, step.columns))
+            continue
+        step = None
+        if _TITLE.match(line) and not _is_header(line, mark, names):
+            title = " ".join(line.split())
+        elif _is_header(line, mark, names):
+            columns, sentences = log_columns.taken(cells, names)
+            left |= dict.fromkeys(sentences)
+            step = Step(title, columns)
+            steps.append(step)
+    steps = [step for step in steps if step.rows]
+    if not steps:
+        raise ContactError(
+            f"'{path}' has no table with a known column, such as 'Rolling Speed (mm/s)' or 'Traction Coeff (-)'. "
+            "Export it as text with headers, or name its columns by --column 'HEADER=QUANTITY [unit]'."
+        )
+    return Log(path.name, steps, list(left))
+
+
+def _text(content: bytes) -> str:
+    try:
+        return content.decode("utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+    except UnicodeDecodeError:
+        return content.decode("cp1252", errors="replace")  # of Windows: its signs for degrees and micro
+
+
+def _is_header(line: str, mark: str, names: Mapping[str, tuple[str, str | None]]) -> bool:
+    cells = [cell.strip().strip('"') for cell in line.split(mark)]
+    full = [cell for cell in cells if cell]
+    return len(full) > 1 and not any(_NUMBER.match(cell) for cell in full) and log_columns.known(full, names)
+
+
+def _is_row(cells: list[str]) -> bool:
+    return bool(_NUMBER.match(cells[0])) and any(cells)
+
+
+def _check_decimals(path: Path, lines: list[str], mark: str) -> None:
+    """Raise ContactError if numbers have commas and points, so that 1,234 may be one thing or the other."""
+    cells = [cell.strip() for line in lines for cell in line.split(mark)]
+    numbers = [cell for cell in cells if _NUMBER.match(cell)]
+    comma, point = (next((cell for cell in numbers if sign in cell), "") for sign in ",.")
+    if comma and point:
+        raise ContactError(
+            f"'{path}' has numbers such as {comma} and {point}: a comma may be of decimals or of thousands. Export it "
+            "with one sign of decimals and none of thousands."
+        )
+
+
+def _row(cells: list[str], columns: list[Column | None]) -> dict[str, float]:
+    found = {}
+    for i, column in enumerate(columns):
+        if column is not None:
+            cell = cells[i] if i < len(cells) else ""
+            number = float(cell.replace(",", ".")) if _NUMBER.match(cell) else math.nan
+            found[column.quantity] = column.value(number) if math.isfinite(number) else math.nan
+    return found
