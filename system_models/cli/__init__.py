@@ -9,6 +9,7 @@
     sweep       sweep: a scene with many values of its keys
     fit         fit: constants of a scene from measured numbers
     map         map: a scene's map for film.model = "map"
+    validate    validate: verdicts against measurements and published numbers
     build       build: the FMU of a scene
     check       check: verdicts on an FMU
     cosim       cosim: a system of FMUs

@@ -13,7 +13,7 @@ from typing import Protocol
 
 from contact_core.errors import ContactError
 
-from . import build, check, cosim, explain, fit, listing, run, stribeck, surfaces, sweep
+from . import build, check, cosim, explain, fit, listing, run, stribeck, surfaces, sweep, validate
 from . import map as mapping
 
 
@@ -38,6 +38,7 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "fit": (fit, "fit constants of a scene to measured films, friction or wear"),
     "map": (mapping, "make the map of a scene for film.model = 'map', by solved contacts"),
     "build": (build, "build the FMU of a scene, for another tool"),
+    "validate": (validate, "compare answers with measurements, published numbers and closed forms"),
     "check": (check, "give a verdict per rule on any FMU"),
     "cosim": (cosim, "simulate a system of FMUs"),
 }
