@@ -36,7 +36,7 @@ def run() -> Outcome:
                     relative(found, printed),
                     Cause(
                         "the constants are a fit to high-pressure viscometry (Mann 1995), not to this data sheet; the "
-                        "class ISO VG 100 allows samples 10 % either way",
+                        "class ISO VG 100 allows samples 10 % either way, so two may be 20 % apart",
                         sheet * (1.0 - 2.0 * CLASS - printed), sheet * (1.0 + 2.0 * CLASS + printed),
                     ),
                 )
