@@ -58,7 +58,7 @@ def _section(name: str, comparison: Comparison, outcome: Outcome) -> str:
     drawn = picture.curves(outcome)
     heads = "".join(f"<th>{heading}</th>" for heading in (*HEADINGS, "allowed because of"))
     table = f"<table><tr>{heads}</tr>{''.join(map(_row, outcome.rows))}</table>" if outcome.rows else ""
-    failure = f"<p>Cannot be computed: {html.escape(outcome.failure)}</p>" if outcome.failure else ""
+    failure = f"<p>cannot be computed: {html.escape(outcome.failure)}</p>" if outcome.failure else ""
     return f"""<h2 id="{name}">{html.escape(comparison.title)}: {outcome.verdict}</h2>
 <p class="about"><b>{comparison.kind}</b>, <code>tribofmu validate {name}</code>. {html.escape(comparison.about)}<br>
 Source: {source}.{licence}</p>

@@ -6,7 +6,7 @@ from contact_core import subsurface_stress
 
 from .model import Array, Comparison, Curve, Kind, Outcome, Row, exactly
 
-CELLS = 32  # across the half width
+CELLS = 24  # across the half width
 DEPTHS = np.arange(0.2, 1.21, 0.02)  # over the half width
 CIRCLE, LINE = (0.31, 0.48), (0.30, 0.78)  # shear over the largest pressure, depth over the half width
 DIGIT = 0.005  # half of the last printed digit
@@ -27,7 +27,7 @@ def run() -> Outcome:
     """Compare a circle, and a strip that is long against its width."""
     x = np.arange(-CELLS - 4, CELLS + 5) / CELLS
     ball = np.sqrt(np.maximum(1.0 - x[None, :] ** 2 - x[:, None] ** 2, 0.0))
-    y = np.arange(-12 * CELLS, 12 * CELLS + 1) / CELLS
+    y = np.arange(-8 * CELLS, 8 * CELLS + 1) / CELLS
     strip = np.tile(np.sqrt(np.maximum(1.0 - x**2, 0.0)), (y.size, 1))
     rows, curves = [], []
     # the shear below a line is that of any Poisson's ratio; that of 0.5 frees its middle from the ends of the strip
