@@ -150,6 +150,7 @@ PAGES: dict[str, Source] = {
     "machines/thousand_hours": Source("machines.thousand_hours", (*RIGS, "native")),
     "fmu/overhead": Source("fmu.overhead", ("regression", "fmu", "models")),
     "fmu/endurance": Source("fmu.endurance", ("fmu", "models")),
+    "fmu/native": Source("fmu.native", ("regression", "fmu", "native", "models", *SHAPES)),
     "coupling/accuracy": Source("coupling.accuracy", ("master", "models")),
     "coupling/cost": Source("coupling.cost", ("master", "models")),
     "coupling/masters": Source("coupling.masters", ("master", "models")),

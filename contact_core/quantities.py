@@ -225,10 +225,10 @@ def parameter(
     return field(metadata=metadata) if default is ... else field(default=default, metadata=metadata)
 
 
-def input_parameter(name: str, *, default: Any = ...) -> Any:
-    """Return a dataclass field for one of `INPUTS`, with its unit, text and range from the table."""
+def input_parameter(name: str, *, text: str = "", default: Any = ...) -> Any:
+    """Return a dataclass field for one of `INPUTS`, with its unit, text (or another one) and range from the table."""
     q = TABLE[name]
-    return parameter(q.unit, q.text, least=q.minimum, most=q.maximum, default=default)
+    return parameter(q.unit, text or q.text, least=q.minimum, most=q.maximum, default=default)
 
 
 def out_of_range(record: Any, path: str) -> Iterator[str]:

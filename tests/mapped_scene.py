@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from contact_core import OperatingPoint, Scene, advance, initial_state
+from contact_core import Scene, advance, initial_state
 from contact_core.mapped.fitting import Rule, fitted
-from contact_core.mapped.knot import Knot, contact_of, samples_of
+from contact_core.mapped.knot import History, Knot, Plan, contact_of, samples_of
 from contact_core.mapped.map import Map, digest_of
 from contact_core.regression.contact import MeanContact
 from contact_core.scene import Case
-from system_models.run.map_ranges import Drawn, Ranges
+from system_models.run.map_ranges import Ranges
 
 SMALL = {
     "film.points": "17",
@@ -41,44 +41,52 @@ def truth(case: Case, contact: MeanContact) -> tuple[float, float, float]:
     )
 
 
-def made_up(scene: Scene, number: int, point: OperatingPoint, before: OperatingPoint, rubbed: float) -> Knot:
-    """Return a knot of the made-up level, with noise; in place of `knot.solve`."""
+def made_up(scene: Scene, number: int, fine: bool, plan: Plan) -> History:
+    """Return a history of the made-up level, with noise; in place of `knot.solve`."""
     fast = scene.at_level("regression")
-    state = initial_state(fast)
-    if rubbed > 0.0:
-        state, _ = advance(fast, before, state, rubbed)
-    state, _ = advance(fast, point, state, 0.0)
-    knot = Knot(number, point, state.means, shared=(SHARED,) * 3, errors=(0.04,) * 3)
-    case, contact = contact_of(fast, knot)
-    friction, film, load = truth(case, contact)
-    noise = np.random.Generator(np.random.Philox(key=[7, number])).normal(0.0, NOISE, 3)
-    spread = contact.load_ratio * (1.0 - contact.load_ratio)
-    found = friction * math.exp(noise[0]), film * math.exp(noise[1]), load + spread * float(noise[2])
-    return replace(knot, found=found)
+    state, before, found = initial_state(fast), 0.0, []
+    random = np.random.Generator(np.random.Philox(key=[7, number]))
+    for k, time in enumerate(plan.times[::4]):
+        state, _ = advance(fast, plan.rubbing, state, time - before)
+        before = time
+        for point in (plan.rubbing, plan.elsewhere[k][1]):
+            knot = Knot(point, state.means, shared=(SHARED,) * 3, errors=(0.04,) * 3)
+            case, contact = contact_of(fast, knot)
+            friction, film, load = truth(case, contact)
+            noise = random.normal(0.0, NOISE, 3)
+            spread = contact.load_ratio * (1.0 - contact.load_ratio)
+            made = friction * math.exp(noise[0]), film * math.exp(noise[1]), load + spread * float(noise[2])
+            found.append(replace(knot, found=made))
+    return History(number, fine, tuple(found))
 
 
 @cache
 def ranges() -> Ranges:
-    """Return the ranges of the knots."""
+    """Return the ranges of the histories."""
     return replace(Ranges.of(scene_of(), {}), temperature=(350.0, 356.0))
 
 
-def drawn(number: int, seed: int = 1) -> Drawn:
-    """Return where a knot lies."""
+def drawn(number: int, seed: int = 1) -> Plan:
+    """Return a history."""
     return ranges().draw(seed, number)
 
 
 @cache
-def knots(count: int, seed: int = 1) -> tuple[Knot, ...]:
+def histories(count: int, seed: int = 1) -> tuple[History, ...]:
+    """Return histories of the made-up level, of eight knots each."""
+    return tuple(made_up(scene_of(), number, True, drawn(number, seed)) for number in range(count))
+
+
+def knots(count: int, seed: int = 1) -> list[Knot]:
     """Return knots of the made-up level."""
-    return tuple(made_up(scene_of(), number, *drawn(number, seed)) for number in range(count))
+    return [knot for history in histories(-(-count // 8), seed) for knot in history.knots][:count]
 
 
 @cache
 def chart() -> Map:
-    """Return the map of 80 knots."""
+    """Return the map of 20 histories."""
     scene = scene_of()
-    return fitted(samples_of(scene, knots(80)), scene.name, digest_of(scene), ranges().rows, Rule())
+    return fitted(samples_of(scene, histories(20)), scene.name, digest_of(scene), ranges().rows, Rule())
 
 
 def mapped_scene(folder: Path, **changes: str) -> Scene:

@@ -42,9 +42,11 @@ class NativeContact:
         subprocess.run(command, check=True, capture_output=True, text=True)
         self._library = ctypes.CDLL(str(library))
         structs = re.findall(r"typedef struct \{(.*?)\} contact_(\w+);", self.sources["contact.h"], re.DOTALL)
-        self.names = {name: re.findall(r"double (\w+);", body) for body, name in structs}
+        found = {name: re.findall(r"double (\w+)(?:\[(\d+)\])?;", body) for body, name in structs}
+        self.names = {name: [member for member, _ in members] for name, members in found.items()}
         self.inputs, self.state, self.outputs = (
-            (ctypes.c_double * len(self.names[name]))() for name in ("inputs", "state", "outputs")
+            (ctypes.c_double * sum(int(size or 1) for _, size in found[name]))()
+            for name in ("inputs", "state", "outputs")
         )
         self._message = ctypes.create_string_buffer(_TEXT)
 

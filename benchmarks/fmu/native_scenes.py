@@ -111,6 +111,13 @@ CHOICES: dict[str, list[Change]] = {
         {},
         _of("oxide", "logarithmic"),
     ],
+    "fatigue": [
+        {},
+        {"stress.set": "bearing_52100", "fatigue.set": "bearing_52100"},
+        _of("stress", "half_space", layers="3", residual="-200 MPa") | {"fatigue.set": "bearing_52100_basquin"},
+        {"stress.set": "gear_case_carburised", "stress.layers": "5", "fatigue.set": "bearing_52100_morrow"},
+        {"stress.set": "bearing_52100"},
+    ],
     "scuffing": [{}, {"scuffing.set": "mineral_oil"}],
     "change": [{}, {"control.change": "0.5 nm"}],
 }

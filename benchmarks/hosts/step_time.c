@@ -3,9 +3,10 @@
        step_time FMI LIBRARY TOKEN CPU ROUNDS STEP VALUE_REFERENCE VALUE_1 VALUE_2 OUTPUT ...
 
    Each round sets an input to one of two values in turn, steps, and gets the outputs; a tenth as many rounds come before,
-   unmeasured. Prints the median, the 99th and the 99.99th percentile and the longest time of a round, and the median time
-   of two readings of the clock with nothing between, in nanoseconds; then the same rounds, each with the state saved
-   before, and restored and freed after it. */
+   unmeasured. Prints the median, the 99th and the 99.99th percentile and the longest time of a round; the same of as many
+   rounds that only read the clock, for as long as that median; and the median time of two readings of the clock with
+   nothing between, in nanoseconds. Then the same rounds, each with the state saved before, and restored and freed after
+   it. */
 
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -162,6 +163,14 @@ int main(int count, char **argument)
             check(status);
             if (i >= 0) taken[i] = end - start;
         }
+        print_percentiles(taken, rounds);
+        long long median = taken[rounds / 2];
+        for (long i = 0; i < rounds; i++) {
+            long long start = now(), end = start;
+            while (end - start < median) end = now();
+            taken[i] = end - start;
+        }
+        putchar(' ');
         print_percentiles(taken, rounds);
         for (long i = 0; i < rounds; i++) {
             long long start = now();

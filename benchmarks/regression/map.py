@@ -1,18 +1,17 @@
-"""Methods for the maps of `film.model = "map"`, on knots solved for them: held-back deviations, half widths, cost.
+"""Maps of `film.model = "map"`: methods, held-back histories, and runs of hours beside the deterministic level.
 
-    tribofmu map mtm_zddp --out results/regression/map/mtm_zddp --accuracy '1 %' --time 10h
+    tribofmu map mtm_zddp --out results/regression/map/mtm_zddp --accuracy '1 %' --time 2h --processes 2
     tribofmu map mtm_zddp --out results/regression/map/coarse --accuracy '1 %' --time 15min \\
         --set film.points=33 surface_1.correlation_length='32 um' surface_2.correlation_length='32 um'
     python -m benchmarks.regression.map  # minutes: docs/measured/regression/map.md
 
-The second one has blocks of half a second, which tell methods apart that few knots cannot. SMT (pip install smt) is
+The second one has histories of a few seconds, which tell methods apart that few cannot. SMT (pip install smt) is
 compared if it is installed.
 """
 
 import math
 import warnings
 from collections.abc import Callable
-from dataclasses import replace
 from importlib.util import find_spec
 from typing import NamedTuple
 
@@ -20,14 +19,23 @@ import numpy as np
 
 from benchmarks.folders import RESULTS
 from benchmarks.pages import Page
-from contact_core import Scene, deterministic, initial_state
+from benchmarks.regression.map_runs import NAMES, along_runs, near_rolling
+from contact_core import Scene
 from contact_core.correction import Knots, Place, conditioned
 from contact_core.mapped import fitting
-from contact_core.mapped.fitting import COVERED, FEWEST, Rule, Samples, fitted, predicted, spread_at, widths_at
-from contact_core.mapped.knot import Knot, samples_of
-from contact_core.mapped.map import COORDINATES, digest_of
-from contact_core.scene import Case
-from system_models.run.map_build import Judged, Order, fit_knots, held_knots, judged, read, scene_of_knots
+from contact_core.mapped.fitting import COVERED, Rule, Samples, TooFewError, fitted, predicted, spread_at, widths_at
+from contact_core.mapped.knot import History, samples_of
+from contact_core.mapped.map import COORDINATES, Map, digest_of
+from system_models.run.map_build import (
+    Judged,
+    Order,
+    fit_histories,
+    is_held,
+    judged,
+    read,
+    scene_of_histories,
+    tasks,
+)
 from system_models.run.map_ranges import Ranges
 
 STORE = RESULTS / "regression" / "map"
@@ -36,11 +44,8 @@ SETS: dict[str, tuple[str, dict[str, str], str]] = {  # scene, changes, words
     "mtm_zddp": ("mtm_zddp", {}, "mtm_zddp as shipped, 129 nodes"),
     "coarse": ("mtm_zddp", COARSE, "mtm_zddp on 33 nodes, correlation lengths of 32 um"),
 }
-NAMES = ("friction", "h_c", "W_c")
-COUNTS = (30, 60, 120, 240, 480)
-PARTS = 10  # of the knots, each left out in turn, for half widths
-WIDE = 1.96  # standard deviations in a half width
-REPEATED, TIMES = 10, 6  # knots that are solved again from other places of the patches, and how often
+COUNTS = (10, 20, 40, 80)
+PARTS = 10  # of the histories, each left out in turn, for half widths
 PLACE = tuple(range(len(Place._fields)))  # coordinates of `correction.Place`
 ALL = tuple(range(len(COORDINATES)))
 
@@ -49,13 +54,12 @@ Predict = Callable[[Samples], tuple[Array, Array]]  # deviations, and widths up 
 
 
 class Data(NamedTuple):
-    """Knots of a scene."""
+    """Histories of a scene."""
 
     order: Order
-    knots: tuple[Knot, ...]
+    histories: tuple[History, ...]
     samples: Samples  # that methods are fitted to
     held: Samples  # that judge
-    errors: Array  # half widths that the held-back blocks state
 
 
 class Method(NamedTuple):
@@ -67,20 +71,19 @@ class Method(NamedTuple):
 
 
 def data(name: str) -> Data | None:
-    """Return the knots that are kept under a name."""
+    """Return the histories that are kept under a name; None for too few."""
     scene = Scene.from_toml(*SETS[name][:2])
-    order, file = Order(scene, Ranges.of(scene, {}), 0.01, 0.0), STORE / name / "knots.jsonl"
+    order, file = Order(scene, Ranges.of(scene, {}), 0.01, 0.0), STORE / name / "histories.jsonl"
     if not file.exists():
         return None
-    found = read(order, file)
-    knots = tuple(found[number] for number in sorted(found))
-    held = held_knots(knots)
-    if len(fit_knots(knots)) < FEWEST:
+    known = read(order, file)
+    found = tuple(known[task] for task in tasks(order) if task in known) if known else ()
+    held = [history for history in found if history.fine and is_held(order, history.number)]
+    exact = scene_of_histories(scene)
+    try:
+        return Data(order, found, samples_of(exact, fit_histories(order, found)), samples_of(exact, held))
+    except TooFewError:
         return None
-    exact = scene_of_knots(scene)
-    return Data(
-        order, knots, samples_of(exact, fit_knots(knots)), samples_of(exact, held), np.array([k.errors for k in held])
-    )
 
 
 def as_it_is(samples: Samples) -> Predict:
@@ -206,15 +209,16 @@ def compared(page: Page, found: Data) -> None:
             warnings.simplefilter("ignore")
             needed = np.empty_like(found.samples.off)
             parts = 3 if method.name.startswith("SMT") else PARTS
+            numbers = np.searchsorted(np.unique(found.samples.history), found.samples.history)
             for part in range(parts):
-                out = np.arange(count) % parts == part
+                out = numbers % parts == part
                 off, wide = method.of(found.samples.some(~out))(found.samples.some(out))
                 gone = found.samples.off[out] - off
                 needed[out] = np.sqrt(np.maximum(gone**2 - found.samples.scatter[out] ** 2, 0.0)) / wide
             factor = np.quantile(needed, COVERED, axis=0)
             off, wide = method.of(found.samples)(found.held)
         gone, half = found.held.off - off, wide * factor
-        stated = np.hypot(half, found.errors)
+        stated = np.hypot(half, found.held.stated)
         cells = [
             [
                 f"{100.0 * np.sqrt(np.mean(gone[:, k] ** 2)):.1f}",
@@ -228,15 +232,20 @@ def compared(page: Page, found: Data) -> None:
 
 
 def by_count(page: Page, found: Data) -> None:
-    """Add what a map of fewer knots is worth."""
-    page.say("Maps of fewer knots, judged by the same held-back ones:")
-    page.header("knots", "terms", *(f"{name}: {text}" for name in NAMES for text in ("rms", "half width", "inside")))
-    whole = len(found.samples.shares)
-    for count in (*(n for n in COUNTS if n < whole), whole):
-        few = found.samples.some(np.arange(whole) < count)
+    """Add what a map of fewer histories is worth."""
+    page.say("Maps of fewer histories, judged by the same held-back ones:")
+    page.header(
+        "histories",
+        "knots",
+        "terms",
+        *(f"{name}: {text}" for name in NAMES for text in ("rms", "half width", "inside")),
+    )
+    numbers = np.unique(found.samples.history)
+    for count in (*(n for n in COUNTS if n < len(numbers)), len(numbers)):
+        few = found.samples.some(np.isin(found.samples.history, numbers[:count]))
         chart = fitted(few, "", "", (), Rule())
         off, half = found.held.off - predicted(chart, found.held), widths_at(chart, found.held.places)
-        stated = np.hypot(half, found.errors)
+        stated = np.hypot(half, found.held.stated)
         cells = [
             [
                 f"{100.0 * np.sqrt(np.mean(off[:, k] ** 2)):.1f}",
@@ -245,36 +254,14 @@ def by_count(page: Page, found: Data) -> None:
             ]
             for k in range(3)
         ]
-        page.row(count, 1 + len(chart.term), *(text for row in cells for text in row))
+        page.row(count, len(few.shares), 1 + len(chart.term), *(text for row in cells for text in row))
 
 
-def scatter(page: Page, found: Data) -> Array:
-    """Add what the same contacts give from other places of the patches; return the standard deviations."""
-    scene = scene_of_knots(found.order.scene)
-    deep, draw, all_of = scene.at_level("deterministic"), np.random.Generator(np.random.Philox(key=[3, 1])), []
-    usable = fit_knots(found.knots)
-    for knot in usable[:: max(len(usable) // REPEATED, 1)][:REPEATED]:
-        values = []
-        for _ in range(TIMES):
-            state = replace(initial_state(scene), means=knot.means)
-            bodies = tuple(replace(body, offset=float(draw.random()) * deep.film.domain) for body in state.bodies)
-            out = deterministic.advance(Case.bind(deep, knot.point), replace(state, bodies=bodies), 0.0)[1]
-            values.append((math.log(out.friction_coefficient), math.log(out.h_c), out.contact_load_ratio))
-        all_of.append(np.var(values, axis=0, ddof=1))
-    noise = np.sqrt(np.mean(all_of, axis=0))
-    page.say(
-        f"Scatter of a block: {REPEATED} of these contacts, each solved {TIMES} times from other places of the patches, have "
-        f"standard deviations of {100 * noise[0]:.1f} % in friction, {100 * noise[1]:.1f} % in h_c and {100 * noise[2]:.1f} % in W_c (rms). "
-        "What is left of the held-back deviations beyond that is the map's."
-    )
-    return noise
-
-
-def map_of(page: Page, name: str, found: Data) -> Judged:
-    """Add the map that `tribofmu map` makes of the knots."""
+def map_of(page: Page, name: str, found: Data) -> tuple[Map, Judged]:
+    """Add the map that `tribofmu map` makes of the histories."""
     scene, order = found.order.scene, found.order
     chart = fitted(found.samples, scene.name, digest_of(scene), order.ranges.rows, Rule())
-    judge = judged(order, chart, found.knots)
+    judge = judged(order, chart, found.histories)
     assert judge is not None
     page.say(
         f"The map of `tribofmu map`: {1 + len(chart.term)} terms, {chart.cost} multiplications and additions a query, "
@@ -290,57 +277,64 @@ def map_of(page: Page, name: str, found: Data) -> Judged:
         "largest over both",
         "inside a tenth of both",
     )
-    medians = np.median(widths_at(chart, found.samples.places), axis=0)
+    places = found.samples.places[found.samples.fine > 0.0]
+    medians = np.median(widths_at(chart, places), axis=0)
     for k, output in enumerate(NAMES):
         off, alone, both = np.abs(judge.off[:, k]), judge.of_map[:, k], judge.stated[:, k]
         page.row(
             output, f"{100.0 * np.sqrt(np.mean(judge.raw[:, k] ** 2)):.1f} %", f"{100.0 * np.sqrt(np.mean(off**2)):.1f} %",
             f"{100.0 * medians[k]:.1f} %", f"{np.mean(off <= alone):.0%}", f"{np.mean(off <= both):.0%}", f"{np.max(off / both):.2f}", f"{np.mean(off <= 0.1 * both):.0%}",
         )  # fmt: skip
-    if name == "coarse":
-        page.verdict(
-            "held-back knots within the stated error",
-            f"{np.min(np.mean(np.abs(judge.off) <= judge.stated, axis=0)):.0%}, at least 95 %",
-            bool(np.all(np.mean(np.abs(judge.off) <= judge.stated, axis=0) >= 0.95)),
-        )
-        page.verdict(
-            "none above three times of it",
-            f"{np.max(np.abs(judge.off) / judge.stated):.2f}",
-            bool(np.all(np.abs(judge.off) <= 3.0 * judge.stated)),
-        )
-        page.verdict(
-            "median half width of friction and h_c at most 5 %",
-            f"{100 * medians[0]:.1f} %, {100 * medians[1]:.1f} %",
-            bool(max(medians[:2]) <= 0.05),
-        )
-        page.verdict("a query costs at most 1500 multiplications and additions", f"{chart.cost}", chart.cost <= 1500)
-    return judge
+    page.verdict(
+        f"{name}: held-back knots within the stated error",
+        f"{np.min(np.mean(np.abs(judge.off) <= judge.stated, axis=0)):.0%} of {len(judge.off)}, at least 95 %",
+        bool(np.all(np.mean(np.abs(judge.off) <= judge.stated, axis=0) >= 0.95)),
+    )
+    page.verdict(
+        f"{name}: none above three times of it",
+        f"{np.max(np.abs(judge.off) / judge.stated):.2f}",
+        bool(np.all(np.abs(judge.off) <= 3.0 * judge.stated)),
+    )
+    page.verdict(
+        f"{name}: median half width of friction and h_c at most 5 %",
+        f"{100 * medians[0]:.1f} %, {100 * medians[1]:.1f} %",
+        bool(max(medians[:2]) <= 0.05),
+    )
+    page.verdict(
+        f"{name}: a query costs at most 1500 multiplications and additions", f"{chart.cost}", chart.cost <= 1500
+    )
+    return chart, judge
 
 
 def main() -> None:
     """Compare, and write the page."""
     page = Page("regression/map", "Maps of what the regression level deviates by")
     page.say(
-        "Knots: deterministic blocks at random operating points (load 0.2 to 2 times, entrainment 0.1 to 3 times, slide-roll ratio 0.1 to 10 "
-        "times that of the scene, both directions, 25 K either way) on surfaces that the regression level has rubbed for up to two hours at another one. "
-        "Every fifth is held back. All in per cent: friction and h_c relative, W_c absolute. Half width: 95 %, median, beyond the scatter that a block states, by "
-        "knots left out. Inside: held-back knots within half width and the block's own error together; largest: deviation over that. Cost: multiplications and additions of a query."
+        "A history rubs for two hours at one random operating point (load 0.5 to 1.5 times, entrainment 0.3 to 3 times, slide-roll ratio 0.2 to 5 times that of the scene, "
+        "both directions, 15 K either way), at the deterministic level and beside it at the regression level, and looks at four others on its way. A knot is what the one finds "
+        "while the other believes the surfaces to be so. Some histories are held back whole. All in per cent: friction and h_c relative, W_c absolute. Half width: 95 %, median, "
+        "beyond the scatter that a block states, by histories left out. Inside: held-back knots within half width and the block's own error together; largest: deviation over that. "
+        "Cost: multiplications and additions of a query."
     )
-    for name in SETS:
+    for name, (_, _, words) in SETS.items():
         found = data(name)
         if found is None:
-            print(f"Not enough knots in {STORE / name}: see the commands above.")
+            print(f"Not enough histories in {STORE / name}: see the commands above.")
             continue
-        refused = sum(not knot.counts for knot in found.knots)
+        knots = [knot for history in found.histories for knot in history.knots]
+        fine = sum(history.fine for history in found.histories)
         page.say(
-            f"**{SETS[name][2]}**: {len(found.samples.shares)} knots, {len(found.held.shares)} held back, {refused} that did not converge left out. "
-            f"The blocks state errors of {', '.join(f'{100 * x:.0f} %' for x in np.median(found.errors, axis=0))} (median)."
+            f"**{words}**: {len(found.histories)} histories, {fine} of them on the scene's grid; {len(found.samples.shares)} knots fitted, {len(found.held.shares)} held back, "
+            f"{sum(not knot.counts for knot in knots)} of {len(knots)} that did not converge left out. "
+            f"The held-back blocks state errors of {', '.join(f'{100 * x:.0f} %' for x in np.median(found.held.stated, axis=0))} (median)."
         )
-        compared(page, found)
-        map_of(page, name, found)
-        by_count(page, found)
-        if name == "coarse":  # blocks of the other one take half a minute
-            scatter(page, found)
+        if len(set(found.samples.fine)) == 1:  # methods know nothing of two grids
+            compared(page, found)
+        chart, _ = map_of(page, name, found)
+        along_runs(page, name, found.order, found.histories, chart)
+        if len(set(found.samples.fine)) == 1:
+            by_count(page, found)
+            near_rolling(page, found.order.scene)
     page.write()
 
 

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from ..errors import ConvergenceError
 from ..film.instant import FilmState
+from ..progress import tell
 from ..scene import Case, Scene
 from ..state import ContactState
 from .accumulator import Accumulator
@@ -43,6 +44,7 @@ def sample_dry(case: Case, state: ContactState, sums: Accumulator, same: bool) -
     if begins_anew(case, state, same):
         count = max(count, case.scene.stress.instants)
     for k in range(count):
+        tell("dry instant", k + 1, count)
         state, fields = dry_instant(case, state, jumps if k else first)
         sums.add(case, state, fields, (1.0 / _DRY_PASS, 1.0 / _DRY_PASS))
     return state
@@ -85,7 +87,9 @@ def sample_mixed(
         state, unsampled = rolled(scene, state, jumps_of(case, smoother, 1.0)), _CALMING
     length = case.sides[scene.rougher].surface.length / scene.film.spacing
     stride = max(1, round(length))  # as many jumps on the way on every grid
-    for k in range(-unsampled, mixed_instants(scene)):
+    sampled = mixed_instants(scene)
+    for k in range(-unsampled, sampled):
+        tell("instant", unsampled + k + 1, unsampled + sampled)
         jump_now = k % stride == 0
         moves = [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)]
         settled = 2 * k >= -unsampled  # enough to tell which points are exposed, and how warm they are

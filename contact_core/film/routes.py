@@ -25,6 +25,7 @@ from ..kernels.mixed.newton import solve_newton
 from ..kernels.mixed.problem import Iterate, Solution
 from ..kernels.mixed.stopping_rule import excess
 from ..kernels.multigrid.cycle import is_applicable, solve_smooth
+from ..progress import ALGORITHM, tell
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .lengths import inlet_length
 from .scaled import LOAD_ACCEPTED, Scaled
@@ -48,9 +49,7 @@ _DAMPED = ((0.5, 15), (0.25, 40))  # multigrid's next tries, and cycles: nearly 
 _CLEAR_LINE = 1.5
 _RESOLVED_INLET = 2.0  # nodes: on an inlet that the grid does not resolve that method is slow and finds no film
 _EXCESS = 10.0  # of the stopping rule's limits, that a thorough step over roughness may have
-_CLOSINGS = (
-    4  # solutions of a light film, at most, until the pressure beyond the grid is consistent with the bodies' gap
-)
+_CLOSINGS = 4  # solutions of a light film, at most, until the pressure beyond the grid fits the bodies' gap
 # a film that has not converged is still better than the dry contact within these
 _CHANGE_ACCEPTED = 0.1
 _COMPLEMENTARITY_ACCEPTED = 20.0
@@ -273,7 +272,8 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     tries = (*_first_tries(scaled, step), *algorithms) if step else algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, (True, True, math.inf)
     apart = _stays_apart(scaled, start, step)
-    for method, begin in tries:
+    for number, (method, begin) in enumerate(tries, 1):
+        tell(ALGORITHM, number, len(tries))
         if settings.lumped and method != "hybrid":  # the other methods have the split criterion only
             continue
         found = solver.run(method, begin)

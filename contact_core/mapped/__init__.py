@@ -2,8 +2,8 @@
 
     map      the record of a map: arrays of numbers, its file, the scene that it belongs to
     query    what a map says of a contact: plain arithmetic on numbers
-    fitting  a map from solved contacts: sparse polynomials, half widths by contacts left out
-    knot     a contact, solved by a deterministic block
+    fitting  a map from solved contacts: sparse polynomials, half widths by histories left out
+    knot     histories of contacts at the deterministic and the regression level
     level    `advance` and the errors of the outputs
 
 Imports run from the bottom of this list to its top. A step needs `map`, `query` and `level` alone.

@@ -1,11 +1,16 @@
-"""A map from solved contacts: sparse polynomials by least squares, and half widths by contacts left out.
+"""A map from solved contacts: sparse polynomials by least squares, and half widths by histories left out.
 
 Terms are chosen one after the other, each the product of one that is there and a coordinate, which takes away most of
-what is left of all outputs together; as many as leave the smallest sum of squares of each contact by all others
+what is left of all outputs together; as many as leave the smallest sum of squares of each history by all others
 (orthogonal matching pursuit; Pati, Rezaiifar & Krishnaprasad, Asilomar 1993, doi:10.1109/ACSSC.1993.342465, and PRESS:
-Allen, Technometrics 16 (1974) 125, doi:10.1080/00401706.1974.10489157). Half widths are such that, with the
-scatter that a solution states for itself, 95 % of the contacts are inside when terms and weights are found without
-them, a tenth of the contacts at a time.
+Allen, Technometrics 16 (1974) 125, doi:10.1080/00401706.1974.10489157). Contacts of the coarser grid, which cost
+little, make most of the polynomials; what the scene's grid adds to them is a plane in the coordinates, in which the
+sampling of both, which have the same surfaces, largely cancels (two levels of a multilevel method; Giles, Acta Numerica
+24 (2015) 259, doi:10.1017/S096249291500001X).
+
+Half widths are such that, with the scatter that a solution states for itself, 95 % of the contacts of each grid are
+inside when terms and weights are found without their history, a tenth of the histories at a time: they are those of
+what a long run averages to, not of one block.
 """
 
 from dataclasses import dataclass, replace
@@ -21,9 +26,12 @@ Array = NDArray[np.float64]
 
 COVERED = 0.95  # of the contacts left out, by half widths
 FEWEST = 30  # contacts that a map is made of, at least
-_DEGREE, _TERMS, _SHARE = 3, 40, 4  # largest degree and number of terms; contacts for each term, at least
+FEWEST_HISTORIES = 3  # on the scene's grid, at least
+_DEGREE, _TERMS, _SHARE = 2, 34, 4  # largest degree and number of terms; contacts for each term, at least
 _PATIENCE = 6  # terms that are tried after the best
 _RIDGE = 1.0  # squares that each weight adds to the sum of squares, over those of one contact
+_PLANE = 30.0  # likewise, of the planes that the scene's grid adds, which few histories have
+_SURE = 1e-3  # least part of a contact that its history does not tell
 _EVEN = 30.0  # likewise, of half widths, which are known from few large deviations
 _NARROWEST = 0.005  # half width that counts as none
 _PARTS = 10  # of the contacts, each left out in turn
@@ -33,15 +41,31 @@ _UNLIKE = 1e-6  # of a term's square, that must be left of it beside the others
 _EDGE = 0.01  # W_c: smaller ones, and larger ones than 1 less that, count as it
 
 
+class TooFewError(ContactError):
+    """There are too few contacts for a map."""
+
+    def __init__(self, contacts: int, histories: int) -> None:
+        """Say how many contacts there are, and of how many histories on the scene's grid."""
+        super().__init__(
+            f"{contacts} contacts that can be fitted, of {histories} histories on the scene's grid, are too few for a "
+            f"map: it takes {FEWEST} of {FEWEST_HISTORIES}. Give more --time, or ranges in which the deterministic "
+            "level converges. What is solved is kept: the same command continues."
+        )
+
+
 class Samples(NamedTuple):
     """Solved contacts; arrays have a row for each."""
 
     places: Array  # `query.coordinates` by the regression level
     slips: Array  # sliding over entrainment speed
+    radii: Array  # along x [m]
     off: Array  # ln of friction and of h_c over those of the regression level, and the difference of W_c
     shares: Array  # contact_load_ratio of the regression level
     own: Array  # half widths of what all solutions share: grid, iteration; relative, of W_c absolute
     scatter: Array  # likewise of what each has for itself
+    stated: Array  # likewise of all
+    history: Array  # number of the history of each
+    fine: Array  # 1: on the grid of the scene, 0: on the coarser one
 
     def some(self, which: NDArray[np.bool_]) -> "Samples":
         """Return some of the contacts."""
@@ -59,20 +83,21 @@ class Rule:
 
 
 def fitted(samples: Samples, name: str, digest: str, ranges: tuple[tuple[str, float, float], ...], rule: Rule) -> Map:
-    """Return the map of solved contacts, with half widths by contacts left out.
+    """Return the map of solved contacts, with half widths by histories left out.
 
-    Raises ContactError for fewer than `FEWEST`.
+    Raises TooFewError for fewer than `FEWEST` knots, or `FEWEST_HISTORIES` on the grid of the scene.
     """
-    if len(samples.shares) < FEWEST:
-        raise ContactError(
-            f"{len(samples.shares)} solved contacts are too few for a map: it takes {FEWEST}. Give more --time."
-        )
+    own = len(set(samples.history[samples.fine > 0.0]))
+    if len(samples.shares) < FEWEST or own < FEWEST_HISTORIES:
+        raise TooFewError(len(samples.shares), own)
     chart = polynomials(samples, name, digest, ranges, rule)
-    off, wide = left_out(samples, name, digest, ranges, rule)
+    off, wide = left_out(samples, rule)
     needed = np.sqrt(np.maximum(off**2 - samples.scatter**2, 0.0)) / wide[:, None]
     linear = scaled_at(chart, samples.places)
     uneven = _smoothed(linear, np.log(np.hypot(needed, _NARROWEST)))
-    uneven[:, 0] += np.log(np.quantile(needed / np.exp(linear @ uneven.T), COVERED, axis=0))
+    over = needed / np.exp(linear @ uneven.T)
+    grids = [which for which in (samples.fine > 0.0, samples.fine == 0.0) if which.any()]
+    uneven[:, 0] += np.log(np.max([np.quantile(over[which], COVERED, axis=0) for which in grids], axis=0))
     return replace(chart, uneven=tuple(map(_tuple, uneven)))
 
 
@@ -82,26 +107,34 @@ def _smoothed(linear: Array, values: Array) -> Array:
     return np.asarray(np.linalg.solve(squares, linear.T @ values).T)
 
 
-def left_out(
-    samples: Samples, name: str, digest: str, ranges: tuple[tuple[str, float, float], ...], rule: Rule
-) -> tuple[Array, Array]:
-    """Return what each contact deviates from a map without it by, [contacts, outputs], and root of 1 + leverage."""
+def left_out(samples: Samples, rule: Rule) -> tuple[Array, Array]:
+    """Return what each contact deviates from a map without its history by, and root of 1 + leverage.
+
+    The first is [contacts, outputs]. Histories of one number, on both grids, are left out together.
+    """
     count = len(samples.shares)
     off, wide = np.empty((count, len(OUTPUTS))), np.empty(count)
-    for part in range(_PARTS):
-        out = np.arange(count) % _PARTS == part
-        chart = polynomials(samples.some(~out), name, digest, ranges, rule)
+    numbers = np.unique(samples.history)
+    part_of = np.searchsorted(numbers, samples.history) % min(_PARTS, len(numbers))
+    for part in range(min(_PARTS, len(numbers))):
+        out = part_of == part
+        fit = _Fit.of(samples.some(~out), rule)
         rest = samples.some(out)
-        off[out] = rest.off - predicted(chart, rest)
-        wide[out] = spread_at(chart, rest.places)
+        off[out] = rest.off - _bounded(fit.at(rest.places, rest.fine), rest.shares)
+        wide[out] = fit.spread(rest.places, rest.fine)
     return off, wide
 
 
 def predicted(chart: Map, samples: Samples) -> Array:
     """Return the deviations that a map has for contacts within its ranges, as in `Samples.off`."""
-    told = np.clip(design(chart, samples.places) @ np.array(chart.weights).T, -STEEPEST, STEEPEST)
+    return _bounded(design(chart, samples.places) @ np.array(chart.weights).T, samples.shares)
+
+
+def _bounded(told: Array, shares: Array) -> Array:
+    """Return deviations as in `Samples.off` from polynomials, [contacts, outputs]."""
+    told = np.clip(told, -STEEPEST, STEEPEST)
     odds = np.exp(told[:, 2])
-    told[:, 2] = odds * samples.shares / (1.0 + (odds - 1.0) * samples.shares) - samples.shares
+    told[:, 2] = odds * shares / (1.0 + (odds - 1.0) * shares) - shares
     return np.asarray(told)
 
 
@@ -134,35 +167,118 @@ def polynomials(
     samples: Samples, name: str, digest: str, ranges: tuple[tuple[str, float, float], ...], rule: Rule
 ) -> Map:
     """Return a map of samples without half widths."""
-    low, high = samples.places.min(0), samples.places.max(0)
-    picked = tuple(k for k in range(len(COORDINATES)) if high[k] - low[k] > _NARROW)
-    centres, halves = 0.5 * (high + low)[list(picked)], (0.5 + _ROOM) * (high - low)[list(picked)]
-    scaled = (samples.places[:, picked] - centres) / halves
-    deviations = samples.off.copy()
-    deviations[:, 2] = _logit(samples.shares + samples.off[:, 2]) - _logit(samples.shares)
-    made = _sparse(scaled, deviations, rule) if rule.sparse else _all(scaled, rule)
-    terms = _columns(scaled, made)
-    squares = terms.T @ terms + rule.ridge * np.diag([0.0] + [1.0] * len(made))
-    root = np.linalg.cholesky(squares)
-    weights = np.linalg.solve(squares, terms.T @ deviations).T
-    own = _smoothed(np.column_stack([np.ones(len(scaled)), scaled]), np.log(samples.own))
-    triangle = np.linalg.inv(root)
+    fit = _Fit.of(samples, rule)
+    fine = samples.fine > 0.0
+    own = _smoothed(np.column_stack([np.ones(len(fit.scaled)), fit.scaled])[fine], np.log(samples.own[fine]))
+    weights, triangle = fit.of_the_scene()
     return Map(
         scene=name,
         digest=digest,
         ranges=ranges,
-        knots=len(scaled),
-        picked=picked,
-        centres=_tuple(centres),
-        halves=_tuple(halves),
+        knots=len(fit.scaled),
+        picked=fit.picked,
+        centres=_tuple(fit.centres),
+        halves=_tuple(fit.halves),
         least_slip=float(samples.slips.min()) * (1.0 - _ROOM),
-        term=tuple(term for term, _ in made),
-        coordinate=tuple(coordinate for _, coordinate in made),
+        radii=(float(samples.radii.min()) * (1.0 - _ROOM), float(samples.radii.max()) * (1.0 + _ROOM)),
+        term=tuple(term for term, _ in fit.made),
+        coordinate=tuple(coordinate for _, coordinate in fit.made),
         weights=tuple(map(_tuple, weights)),
         spread=tuple(_tuple(row[: k + 1]) for k, row in enumerate(triangle)),
-        uneven=((0.0,) * (1 + len(picked)),) * len(OUTPUTS),
+        uneven=((0.0,) * (1 + len(fit.picked)),) * len(OUTPUTS),
         own=tuple(map(_tuple, own)),
     )
+
+
+@dataclass(frozen=True)
+class _Fit:
+    """Least squares: polynomials of the coarser grid, and planes that the scene's grid adds to them."""
+
+    picked: tuple[int, ...]
+    centres: Array
+    halves: Array
+    scaled: Array  # coordinates of the samples, [samples, picked]
+    made: list[tuple[int, int]]
+    planes: int  # 1 and coordinates of the planes; 0 where all samples are of one grid
+    weights: Array  # [terms and planes, outputs]
+    variance: Array  # of a fitted value over that of a sample: inverse of the squares
+
+    @staticmethod
+    def of(samples: Samples, rule: Rule) -> "_Fit":
+        """Fit samples."""
+        low, high = samples.places.min(0), samples.places.max(0)
+        picked = _picked(samples.places)
+        centres, halves = 0.5 * (high + low)[list(picked)], (0.5 + _ROOM) * (high - low)[list(picked)]
+        scaled = (samples.places[:, picked] - centres) / halves
+        deviations = samples.off.copy()
+        deviations[:, 2] = _logit(samples.shares + samples.off[:, 2]) - _logit(samples.shares)
+        fine, one_grid = samples.fine, len(set(samples.fine)) == 1
+        planes = 0 if one_grid else 1 + len(picked)
+        straight = [(0, k) for k in range(len(picked))]
+        if not one_grid:  # the planes first, beside straight terms, so that these are of one grid's samples
+            first = _solved(_both(_columns(scaled, straight), scaled, fine, planes), planes, deviations, rule)[0]
+            alike = deviations - _both(np.zeros((len(scaled), 0)), scaled, fine, planes) @ first[-planes:]
+        else:
+            alike = deviations
+        made = _sparse(scaled, alike, samples.history, rule) if rule.sparse else _all(scaled, rule)
+        if planes:
+            made = [*made, *(pair for pair in straight if pair not in made)]
+        weights, variance = _solved(_both(_columns(scaled, made), scaled, fine, planes), planes, deviations, rule)
+        return _Fit(picked, centres, halves, scaled, made, planes, weights, variance)
+
+    def _columns(self, places: Array, fine: Array) -> Array:
+        scaled = np.clip((places[:, self.picked] - self.centres) / self.halves, -1.0, 1.0)
+        return _both(_columns(scaled, self.made), scaled, fine, self.planes)
+
+    def at(self, places: Array, fine: Array) -> Array:
+        """Return the polynomials at places on a grid, [places, outputs]."""
+        return np.asarray(self._columns(places, fine) @ self.weights)
+
+    def spread(self, places: Array, fine: Array) -> Array:
+        """Return the root of 1 + leverage."""
+        columns = self._columns(places, fine)
+        return np.asarray(np.sqrt(1.0 + np.einsum("ij,jk,ik->i", columns, self.variance, columns)))
+
+    def of_the_scene(self) -> tuple[Array, Array]:
+        """Return weights [outputs, terms] on the scene's grid, and the triangle of their variance."""
+        terms = 1 + len(self.made)
+        into = np.eye(terms)
+        if self.planes:
+            plane = np.zeros((self.planes, terms))
+            plane[0, 0] = 1.0
+            for k in range(self.planes - 1):
+                plane[1 + k, 1 + self.made.index((0, k))] = 1.0
+            into = np.vstack([into, plane])
+        squares = (into.T @ self.variance @ into)[::-1, ::-1]
+        return (into.T @ self.weights).T, np.asarray(np.linalg.cholesky(squares))[::-1, ::-1].T
+
+
+def _picked(places: Array) -> tuple[int, ...]:
+    """Return the coordinates that change, and are no straight function of those before."""
+    found: tuple[int, ...] = ()
+    straight = np.ones((len(places), 1))
+    for k in range(len(COORDINATES)):
+        weights = np.linalg.lstsq(straight, places[:, k], rcond=None)[0]
+        left = places[:, k] - straight @ weights
+        if np.abs(left).max() > _NARROW:
+            found = (*found, k)
+            straight = np.column_stack([straight, places[:, k]])
+    return found
+
+
+def _both(terms: Array, scaled: Array, fine: Array, planes: int) -> Array:
+    """Return terms, and beside them 1 and the coordinates on the scene's grid, 0 on the coarser one."""
+    if not planes:
+        return terms
+    return np.hstack([terms, fine[:, None], fine[:, None] * scaled])
+
+
+def _solved(columns: Array, planes: int, deviations: Array, rule: Rule) -> tuple[Array, Array]:
+    """Return the weights [columns, outputs] of ridge regression, and the inverse of its squares."""
+    terms = columns.shape[1] - planes
+    ridge = [0.0] + [rule.ridge] * (terms - 1) + ([0.0] + [_PLANE] * (planes - 1) if planes else [])
+    inverse = np.asarray(np.linalg.inv(columns.T @ columns + np.diag(ridge)))
+    return inverse @ columns.T @ deviations, inverse
 
 
 def _logit(shares: Array) -> Array:
@@ -193,9 +309,10 @@ def _all(scaled: Array, rule: Rule) -> list[tuple[int, int]]:
     return made
 
 
-def _sparse(scaled: Array, deviations: Array, rule: Rule) -> list[tuple[int, int]]:
+def _sparse(scaled: Array, deviations: Array, history: Array, rule: Rule) -> list[tuple[int, int]]:
     """Return the terms that deviations ask for, each as an earlier term and the coordinate that it is multiplied by."""
     count, size = scaled.shape
+    groups = [np.flatnonzero(history == number) for number in np.unique(history)]
     known: list[tuple[int, ...]] = [()]
     made: list[tuple[int, int]] = []
     columns = [np.ones(count)]
@@ -203,8 +320,7 @@ def _sparse(scaled: Array, deviations: Array, rule: Rule) -> list[tuple[int, int
     left = deviations - basis @ (basis.T @ deviations)
     scale = np.maximum(np.sqrt((left**2).mean(0)), 1e-12)
     left = left / scale
-    told = np.full(count, 1.0 / count)  # leverage
-    best, best_made = float(np.sum((left / (1.0 - told)[:, None]) ** 2)), 0
+    best, best_made = _press(basis, left, groups), 0
     while len(made) < min(rule.most - 1, count // _SHARE - 1) and len(made) - best_made < _PATIENCE:
         candidates: dict[tuple[int, ...], tuple[int, int]] = {}
         for place, powers in enumerate(known):
@@ -225,11 +341,20 @@ def _sparse(scaled: Array, deviations: Array, rule: Rule) -> list[tuple[int, int
         direction = rest[:, chosen] / np.sqrt(size_2[chosen])
         basis = np.column_stack([basis, direction])
         left = left - np.outer(direction, direction @ left)
-        told = told + direction**2
         known.append(fresh[chosen])
         made.append(candidates[fresh[chosen]])
         columns.append(raw[:, chosen])
-        press = float(np.sum((left / np.maximum(1.0 - told, 1e-3)[:, None]) ** 2))
+        press = _press(basis, left, groups)
         if press < best:
             best, best_made = press, len(made)
     return made[:best_made]
+
+
+def _press(basis: Array, left: Array, groups: list[NDArray[np.int64]]) -> float:
+    """Return the sum of squares of each history by all others, from an orthonormal basis and what it leaves."""
+    total = 0.0
+    for group in groups:
+        own = basis[group]
+        told = np.eye(len(group)) * (1.0 + _SURE) - own @ own.T
+        total += float(np.sum(np.linalg.solve(told, left[group]) ** 2))
+    return total

@@ -19,17 +19,20 @@ COORDINATES = (  # of a contact by the regression level, in the order of `query.
     "slip",  # ln of (sliding over entrainment speed + 0.1)
     "pressed",  # ln of Hertz's largest pressure over the hardness
     "share",  # contact_load_ratio
-    "oil",  # ln of the oil's friction over the load that it carries
+    "oil",  # ln of (the oil's friction over the load that it carries + 0.02): pure rolling is near little sliding
     "cover",  # mean cover of both bodies by tribofilm
     "roughness",  # ln of composite roughness over that of new surfaces
     "speed",  # ln of the entrainment speed in m/s
     "temperature",  # of the oil that is drawn in [K]
     "raised_1",  # by which the tribofilm of body 1 makes it rougher, over composite roughness of new surfaces
     "raised_2",  # likewise of body 2
-    "worn",  # ln of (composite roughness of the solids over that of new surfaces + 0.01)
+    "worn_1",  # ln of (roughness of the solid of body 1 over that of a new one + 0.01)
+    "worn_2",  # likewise of body 2
+    "lead",  # s / (|s| + 0.1), s being how much faster the rougher body is over the entrainment speed
+    "width",  # ln of Hertz's half width along x over the correlation length of the rougher body
 )
 STEEPEST = 3.0  # largest logarithm of a factor
-_FORMAT = 1
+_FORMAT = 2
 _APART = ("name", "description", "operation", "control")  # parts of a scene that no map depends on
 
 
@@ -49,6 +52,7 @@ class Map:
     centres: Numbers
     halves: Numbers  # half the range of each coordinate
     least_slip: float  # smallest sliding over entrainment speed of the knots
+    radii: Numbers  # smallest and largest radius along x of the knots [m]
     term: tuple[int, ...]  # of each term but the first: the earlier term
     coordinate: tuple[int, ...]  # and the coordinate that it is multiplied by
     weights: tuple[Numbers, ...]  # of ln of the factors of friction, h_c, and W_c / (1 - W_c)

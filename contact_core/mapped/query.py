@@ -5,24 +5,29 @@ source.
 """
 
 import math
+from dataclasses import replace
 from typing import NamedTuple
 
-from ..amended import amended, kept
-from ..regression.contact import MeanContact, Stated
+from ..amended import amended, exact
+from ..regression.contact import MeanContact, Stated, evaluate
 from ..regression.outputs import half_widths
+from ..regression.surfaces import Tribofilms
 from ..scene import Case
 from .map import STEEPEST, Map
 
 Three = tuple[float, float, float]
+Four = tuple[float, float, float, float]
 
-_SLIP, _OIL, _THIN, _WORN, _NONE = 0.1, 1e-4, 1e-3, 0.01, 1e-9  # least numbers: no logarithm of 0
+_SLIP, _OIL, _THIN, _WORN, _NONE = 0.1, 0.02, 1e-3, 0.01, 1e-9  # least numbers: no logarithm of 0
 _MARGIN = 1.0  # of half the range of a coordinate, over which a map fades out beyond it
+_STEP, _KELVIN = 1e-5, 1e-3  # of differences of the factor on friction, relative and in temperature
 
 
 class Here(NamedTuple):
     """A contact as a map sees it."""
 
     trust: float  # 1 within the ranges of the map, 0 where the regression level stands as it is
+    slides: float  # part of it that friction has: 1 from the least sliding of the knots on, 0 without sliding
     scaled: list[float]  # 1, and its coordinates from -1 to 1
     terms: list[float]  # of the polynomials
 
@@ -36,10 +41,12 @@ class Told(NamedTuple):
 
 
 def coordinates(case: Case, contact: MeanContact) -> tuple[float, ...]:
-    """Return where a contact with friction lies, by what the regression level says of it; see `COORDINATES`."""
+    """Return where a loaded contact lies, by what the regression level says of it; see `COORDINATES`."""
     op, share = case.op, contact.load_ratio
     first, second = case.sides
     mean = max(0.5 * abs(op.speed_1 + op.speed_2), _NONE)
+    along = 0.5 * (op.speed_1 + op.speed_2)
+    faster = (op.speed_2 - op.speed_1 if case.scene.rougher else op.speed_1 - op.speed_2) / math.copysign(mean, along)
     oil = abs(contact.fluid) / (max(1.0 - share, _NONE) * op.load)
     new = math.hypot(first.surface.rms, second.surface.rms)
     return (
@@ -54,19 +61,19 @@ def coordinates(case: Case, contact: MeanContact) -> tuple[float, ...]:
         op.inlet_temperature,
         contact.tribofilms[0].raised / new,
         contact.tribofilms[1].raised / new,
-        math.log(math.hypot(contact.tribofilms[0].solid, contact.tribofilms[1].solid) / new + _WORN),
+        math.log(contact.tribofilms[0].solid / max(first.surface.rms, _NONE) + _WORN),
+        math.log(contact.tribofilms[1].solid / max(second.surface.rms, _NONE) + _WORN),
+        faster / (abs(faster) + _SLIP),
+        math.log(case.unit_hertz.a * case.growth[0] / case.sides[case.scene.rougher].surface.length),
     )
 
 
-def trusted(chart: Map, place: list[float], slip: float) -> float:
-    """Return how far a map is trusted: 1 within the ranges of its coordinates, 0 well outside and without sliding.
-
-    `slip` is sliding over entrainment speed.
-    """
+def trusted(chart: Map, place: list[float]) -> float:
+    """Return how far a map is trusted: 1 within the ranges of its coordinates, 0 well outside."""
     beyond = 0.0
     for value, centre, half in zip(place, chart.centres, chart.halves, strict=True):
         beyond = max(beyond, abs(value - centre) / half - 1.0)
-    return max(1.0 - beyond / _MARGIN, 0.0) * min(slip / chart.least_slip, 1.0)
+    return max(1.0 - beyond / _MARGIN, 0.0)
 
 
 def scaled_to(chart: Map, place: list[float]) -> list[float]:
@@ -105,22 +112,29 @@ def leverage(chart: Map, found: list[float]) -> float:
 
 
 def here(chart: Map, case: Case, contact: MeanContact) -> Here:
-    """Return a contact with friction as a map sees it."""
+    """Return a loaded contact as a map sees it."""
     op = case.op
     everything = coordinates(case, contact)
     place = [everything[k] for k in chart.picked]
     slip = abs(op.speed_1 - op.speed_2) / max(0.5 * abs(op.speed_1 + op.speed_2), _NONE)
     scaled = scaled_to(chart, place)
-    known = op.spin == 0.0 and case.shape.radii == case.scene.shape().radii  # no knot has others
-    return Here(trusted(chart, place, slip) if known else 0.0, scaled, terms(chart, scaled))
+    least, most = chart.radii
+    radius, ellipse = case.shape.radius_x, case.shape.radii[1:] == case.scene.shape().radii[1:]
+    known = op.spin == 0.0 and ellipse and least <= radius and radius <= most
+    trust = trusted(chart, place) if known else 0.0  # no knot has others
+    return Here(trust, min(slip / chart.least_slip, 1.0), scaled, terms(chart, scaled))
 
 
 def told(chart: Map, place: Here, load_ratio: float) -> Told:
     """Return what a map says of a contact of a contact_load_ratio by the regression level."""
-    friction = math.exp(place.trust * bounded(total(chart.weights[0], place.terms)))
     film = math.exp(place.trust * bounded(total(chart.weights[1], place.terms)))
     odds = math.exp(place.trust * bounded(total(chart.weights[2], place.terms)))
-    return Told(friction, film, odds * load_ratio / (1.0 + (odds - 1.0) * load_ratio))
+    return Told(friction_factor(chart, place), film, odds * load_ratio / (1.0 + (odds - 1.0) * load_ratio))
+
+
+def friction_factor(chart: Map, place: Here) -> float:
+    """Return the factor on the friction of the regression level."""
+    return math.exp(place.trust * place.slides * bounded(total(chart.weights[0], place.terms)))
 
 
 def bounded(value: float) -> float:
@@ -135,28 +149,65 @@ def half_widths_of(chart: Map, place: Here, stated: Three) -> Three:
     """
     wide = math.sqrt(1.0 + leverage(chart, place.terms))
     return (
-        _half_width(chart, 0, place, wide, stated[0]),
-        _half_width(chart, 1, place, wide, stated[1]),
-        _half_width(chart, 2, place, wide, stated[2]),
+        _half_width(chart, 0, place, wide, place.trust * place.slides, stated[0]),
+        _half_width(chart, 1, place, wide, place.trust, stated[1]),
+        _half_width(chart, 2, place, wide, place.trust, stated[2]),
     )
 
 
-def _half_width(chart: Map, output: int, place: Here, wide: float, stated: float) -> float:
+def _half_width(chart: Map, output: int, place: Here, wide: float, trust: float, stated: float) -> float:
     alone = wide * math.exp(total(chart.uneven[output], place.scaled))
     shared = math.exp(total(chart.own[output], place.scaled))
-    return place.trust * math.hypot(alone, shared) + (1.0 - place.trust) * stated
+    return trust * math.hypot(alone, shared) + (1.0 - trust) * stated
 
 
 def corrected(chart: Map, case: Case, contact: MeanContact) -> MeanContact:
     """Return a contact of the regression level, corrected, with the errors that are left.
 
-    Where that level is exact, or the map says nothing, it stands as it is.
+    Where that level is exact, it stands as it is. The derivatives of friction are those of `slopes`.
     """
     raw = half_widths(case, contact)
     own = (raw["error_friction"], raw["error_film"], raw["error_load_ratio"])
-    if kept(case, contact):
+    if exact(case, contact):
         return contact._replace(stated=Stated(*own, 1.0))
     place = here(chart, case, contact)
     found = told(chart, place, contact.load_ratio)
     better = amended(contact, found.friction, found.film * contact.gap, found.load_ratio, max(case.op.bodies))
-    return better._replace(stated=Stated(*half_widths_of(chart, place, own), place.trust))
+    return better._replace(stated=Stated(*half_widths_of(chart, place, own), place.trust * place.slides))
+
+
+def slopes(chart: Map, case: Case, tribofilms: Tribofilms) -> Four:
+    """Return the derivatives of the corrected friction on body 1 by speed_1, speed_2, load and temperature.
+
+    How the factor on friction changes is a difference, as those of the regression level are.
+    """
+    contact, op = evaluate(case, tribofilms), case.op
+    if exact(case, contact):
+        return contact.derivatives
+    force, factor = contact.solid + contact.fluid, friction_factor(chart, here(chart, case, contact))
+    faster = math.copysign(_STEP * max(abs(op.speed_1), abs(op.speed_2), _NONE), op.speed_1 - op.speed_2)
+    warm_1, warm_2 = op.body_temperature_1, op.body_temperature_2
+    beside = (
+        (faster, replace(op, speed_1=op.speed_1 + faster)),
+        (-faster, replace(op, speed_2=op.speed_2 - faster)),
+        (_STEP * op.load, replace(op, load=op.load * (1.0 + _STEP))),
+        (
+            _KELVIN,
+            replace(
+                op,
+                temperature=op.temperature + _KELVIN,
+                body_temperature_1=None if warm_1 is None else warm_1 + _KELVIN,
+                body_temperature_2=None if warm_2 is None else warm_2 + _KELVIN,
+            ),
+        ),
+    )
+    first, second, third, fourth = (
+        factor * by + force * (_factor(chart, Case(case.scene, point), tribofilms) - factor) / step
+        for by, (step, point) in zip(contact.derivatives, beside, strict=True)
+    )
+    return first, second, third, fourth
+
+
+def _factor(chart: Map, case: Case, tribofilms: Tribofilms) -> float:
+    """Return the factor on friction."""
+    return friction_factor(chart, here(chart, case, evaluate(case, tribofilms, derivatives=False)))

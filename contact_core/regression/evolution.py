@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 
 from ..errors import ConvergenceError, OperatingPointError
-from ..scene import Case, Side
+from ..scene import Case, Scene, Side
 from ..state import Classes, ContactState, Mean, Outputs, changed
 from ..state.bulk_temperature import NO_TIME, cool_time, temperatures_after
 from ..surfaces.damage_classes import classes_of
 from ..surfaces.track_means import means_of
 from .contact import MeanContact, evaluate
 from .exposure import abrasion, doses, oxidised, solid_rate, track_area, wear_rate
-from .fatigue import Harm, fatigued, harm_by, outputs_below
+from .fatigue import fatigued, harm_by, outputs_below
 from .outputs import outputs_of
 from .surfaces import Means, Tribofilms, added_friction, composite_roughness, mean_cover, regression_film, tribofilms_of
 
@@ -81,23 +81,24 @@ def _stepped(case: Case, state: ContactState, dt: float, contact_of: ContactOf) 
     """Return the state and outputs after `dt` [s] at held bulk temperatures."""
     before = state.means or means_of(case.scene, state)
     means, films, left = before, tribofilms_of(before), dt
-    classes: Classes | None = _classes(case, state)
-    harm: Harm | None = None
+    classes = classes_at(case.scene, state)
     contact = contact_of(case, films)
+    harm = None if classes is None else harm_by(case, contact)
     step, speed = 0.0, 0.0  # of the last part [s]; at which the surfaces change [m/s]
     while left > 0.0:
-        start, used = means, contact
+        start, newer = means, False
         step, means, films, speed = _substep(case, contact, start, left)
         left -= step
         if _has_changed(case, contact, films):
-            contact = contact_of(case, films)
+            contact, newer = contact_of(case, films), True
             settled = _settled(case, start, means, _evolved(case, contact, start, step))
             if settled is not means:
                 means, films = settled, tribofilms_of(settled)
                 contact = contact_of(case, films)
-        if classes is not None:
-            harm = harm_by(case, used, harm)
+        if classes is not None and harm is not None:
             classes = fatigued(case.scene, classes, harm, start, means)
+            if newer:
+                harm = harm_by(case, contact)
     if step < _SHORT:
         speed = _substep(case, contact, means, _TRIAL)[3]
     if dt >= _SHORT:
@@ -113,14 +114,13 @@ def _stepped(case: Case, state: ContactState, dt: float, contact_of: ContactOf) 
         )
     below = {}
     if case.scene.stress.samples:
-        below = outputs_below(case, state.outputs, harm_by(case, contact, harm), classes, means)
+        below = outputs_below(case, state.outputs, harm or harm_by(case, contact), classes, means)
     outputs = outputs_of(case, state.outputs, contact, means, films, rates, speed, below)
     return changed(state, time=state.time + dt, means=means, classes=classes, outputs=outputs, solved_for=None), outputs
 
 
-def _classes(case: Case, state: ContactState) -> Classes | None:
+def classes_at(scene: Scene, state: ContactState) -> Classes | None:
     """Return the damage of a state by classes; None where nothing damages."""
-    scene = case.scene
     if not (scene.stress.samples and scene.fatigue.damages):
         return state.classes
     return state.classes or classes_of(scene, state)

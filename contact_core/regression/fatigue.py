@@ -18,7 +18,7 @@ from ..state import Outputs
 from ..state.classes import WEIGHTS, Classes
 from .contact import MeanContact
 from .outputs import run_in
-from .stress import Stressed, stressed
+from .stress import stressed
 from .surfaces import Means
 
 Array = NDArray[np.float64]
@@ -32,20 +32,17 @@ UNKNOWN = 1e3  # relative, of damage next to nothing of which is known
 class Harm(NamedTuple):
     """What a contact does below both tracks."""
 
-    contact: MeanContact
-    stressed: Stressed
+    outputs: dict[str, float]  # stresses, see `Stressed`
     per_cycle: Array  # damage per load cycle, [2, layers, rows, classes]
     more: Array  # likewise, under stresses larger by their half width
 
 
-def harm_by(case: Case, contact: MeanContact, last: Harm | None) -> Harm:
-    """Return what a contact does; the last harm if that is of the same contact."""
-    if last is not None and last.contact is contact:
-        return last
+def harm_by(case: Case, contact: MeanContact) -> Harm:
+    """Return what a contact does."""
     found = stressed(case, contact)
     both = np.array([1.0, 1.0 + found.half_width * run_in(case, contact)])[:, None, None, None, None]
     per_cycle, more = case.scene.fatigue.per_cycle(Cycle(*(both * part for part in found.cycles)))
-    return Harm(contact, found, per_cycle, more)
+    return Harm(found.outputs, per_cycle, more)
 
 
 def fatigued(scene: Scene, classes: Classes, harm: Harm, then: Means, now: Means) -> Classes:
@@ -101,7 +98,7 @@ def outputs_below(case: Case, before: Outputs, harm: Harm, classes: Classes | No
     Damage rises with a power of the stress, so its error is a factor: it may be 1 + the half width times as large, or
     that part of what is stated. What has broken out stays so, whatever rates tell of a class now.
     """
-    found = harm.stressed.outputs | {"error_damage": 0.0}
+    found = harm.outputs | {"error_damage": 0.0}
     worst, broken, areas = (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)
     if classes is not None and case.scene.fatigue.damages:
         rate, more = harm.per_cycle.max(axis=1), harm.more.max(axis=1)  # [2, rows, classes]
@@ -111,7 +108,7 @@ def outputs_below(case: Case, before: Outputs, harm: Harm, classes: Classes | No
         worst, broken, now, higher = (
             (np.array([damage, pits, rate * whole, more * whole]) @ WEIGHTS).mean(axis=2).tolist()
         )
-        found["error_damage"] = max(map(_relative, now, higher))
+        found["error_damage"] = max(_relative(*pair) for pair in zip(now, higher, strict=True))
         flat = (-1, WEIGHTS.size)
         areas = _pitted(damage.reshape(flat), pits.reshape(flat), rate.reshape(flat)).reshape(2, -1).mean(axis=1)
     was = before.micropitted_area_1, before.micropitted_area_2

@@ -8,11 +8,15 @@
     heights     heights of a body from a file or an array; height_map: the array
     operation   operating points, and the duty of a scene
     case        a scene at an operating point, bound once per step
+    defaults    what a scene that does not say otherwise has
+    hertz_grid  grid of a scene that gives none
     accuracy    grid, tolerance, blocks and instants for an accuracy that is asked for
     checks      what makes a scene or an operating point unusable
+    plausibility  numbers that look like mistakes
     toml        TOML to records and back
     in_use      the laws that a scene uses, with their equations
     origins     where each value of a scene comes from
+    problems    everything that is wrong with a table, in one refusal
     tunables    numbers that may be changed in a scene
     units       "1.26 GPa" to SI
 
@@ -20,6 +24,7 @@ A scene is checked when it is read; an operating point when it is bound in a cas
 """
 
 from .case import Case, Side
+from .defaults import Assumed, told
 from .height_map import HeightStatistics, statistics_of
 from .heights import Heights
 from .operation import OperatingPoint, Operation, Step
@@ -30,6 +35,7 @@ from .surface import Surface
 from .tunables import tunables, with_values
 
 __all__ = [
+    "Assumed",
     "Case",
     "Control",
     "HeightStatistics",
@@ -44,6 +50,7 @@ __all__ = [
     "Step",
     "Surface",
     "statistics_of",
+    "told",
     "tunables",
     "with_values",
 ]

@@ -7,21 +7,18 @@ will do.
 
 import math
 from collections.abc import Collection, Mapping
-from dataclasses import fields, replace
 from typing import Any, TypeVar
 
 from ..errors import SceneError
 from ..film.grid_error import film_error, load_ratio_error
-from ..film.lengths import inlet_length
 from ..quantities import UNSOLVED
 from .checks import duty_points
-from .fields import ROOM, SceneFields
-from .operation import OperatingPoint
+from .fields import SceneFields
+from .hertz_grid import POINTS, inlet, room_for_hertz, with_values
 from .records import CHOSEN
 
 Scene = TypeVar("Scene", bound=SceneFields)
 
-POINTS = (65, 97, 129, 193, 257, 385, 513)
 _PATCHES = 129  # of a state at the regression level
 _GRID = 0.97  # part of the accuracy that is left to the grid: errors add up as squares
 _TYPICAL_SHARE = 0.5  # W_c: which it will be is not known before
@@ -71,38 +68,20 @@ def planned(scene: Scene, open_fields: Collection[str]) -> Scene:
         "control.dry_instants": min(max(math.ceil(_DRY_INSTANTS * finer), _DRY_INSTANTS), _MOST_DRY),
     }
     if "film.domain" in open_fields:
-        values["film.domain"] = _domain(scene)
-        scene = _with(scene, {"film.domain": values["film.domain"]})
+        values["film.domain"] = room_for_hertz(scene)
+        scene = with_values(scene, {"film.domain": values["film.domain"]})
     if "film.points" in open_fields:
         values["film.points"] = _points(scene, accuracy)
     points = values.get("film.points", scene.film.points)
     values["control.mixed_instants"] = max(math.ceil(_INSTANTS * min(finer, 1.0)), math.ceil((points - 1) / 8))
-    return _with(scene, {name: values[name] for name in open_fields})
+    return with_values(scene, {name: values[name] for name in open_fields})
 
 
 def _for_patches(scene: Scene, open_fields: Collection[str]) -> Scene:
     """Return a scene of the regression level, whose answers know no grid, with one for the patches of its state."""
     if "film.domain" in open_fields:
-        scene = _with(scene, {"film.domain": _domain(scene)})
-    return _with(scene, {"film.points": _PATCHES}) if "film.points" in open_fields else scene
-
-
-def _with(scene: Scene, values: Mapping[str, Any]) -> Scene:
-    """Return the scene with values of dotted fields, unchecked."""
-    for name, value in values.items():
-        part, field = name.split(".")
-        record = getattr(scene, part)
-        if field in {f.name for f in fields(record)}:  # the regression level has fewer
-            scene = replace(scene, **{part: replace(record, **{field: value})})
-    return scene
-
-
-def _domain(scene: SceneFields) -> float:
-    """Return the length [m] of a grid that the largest contact and its inlet leave room on."""
-    hertz = scene.hertz(scene.largest_load)
-    square = scene.geometry.bounded_across and scene.film.width == 0.0
-    half = max(hertz.a, hertz.b if square else 0.0)
-    return 1.2 * ROOM * half
+        scene = with_values(scene, {"film.domain": room_for_hertz(scene)})
+    return with_values(scene, {"film.points": _PATCHES}) if "film.points" in open_fields else scene
 
 
 def _points(scene: SceneFields, accuracy: float) -> int:
@@ -127,7 +106,7 @@ def _error(scene: SceneFields, points: int) -> float:
     for op in (point for _, point in duty_points(scene) if point.load > 0.0):
         rougher = (scene.surface_1, scene.surface_2)[scene.rougher]
         spacing = scene.film.domain / (points - 1)
-        nodes = 0.0 if rougher.smooth else rougher.length / spacing, _inlet(scene, op) / spacing
+        nodes = 0.0 if rougher.smooth else rougher.length / spacing, inlet(scene, op) / spacing
         share = 0.0 if rougher.smooth and not _layered(scene) else _TYPICAL_SHARE
         found += [film_error(share, *nodes), load_ratio_error(share, *nodes)]
     return max(found)
@@ -135,12 +114,3 @@ def _error(scene: SceneFields, points: int) -> float:
 
 def _layered(scene: SceneFields) -> bool:
     return any(s.microroughness and s.microroughness.rms > 0.0 for s in (scene.surface_1, scene.surface_2))
-
-
-def _inlet(scene: SceneFields, op: OperatingPoint) -> float:
-    """Return the length [m] of the inlet at an operating point, 0 without entrainment."""
-    if op.entrainment_speed == 0.0:
-        return 0.0
-    shape, modulus = scene.shape(op), scene.solids.reduced_modulus
-    smooth = shape.smooth(op.load, op.entrainment_speed, scene.lubricant.viscosity, op.inlet_temperature, modulus)
-    return inlet_length(shape.hertz(op.load, modulus).a, shape, smooth.film)

@@ -1,5 +1,6 @@
 """The scene: a frozen record of a contact and its physics, read from TOML and checked before anything is computed."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import fields, replace
 from numbers import Real
@@ -11,16 +12,20 @@ from numpy.typing import ArrayLike
 from ..errors import SceneError
 from ..film import FILMS
 from ..film.mapped import with_map_found
-from . import checks
+from ..quantities import out_of_range
+from . import checks, hertz_grid, plausibility
 from .accuracy import planned, provisional
+from .defaults import Assumed, completed_by_defaults
 from .fields import SceneFields
 from .height_map import HeightMap
 from .heights import Heights
 from .operation import OperatingPoint
+from .problems import TableError
 from .surface import SEEDS
 from .toml import build, completed, did_you_mean, given, located
 from .units import parse
 
+_TO_START = "All else has a default; `tribofmu new NAME` writes a scene to start from."
 _SEED_STEP = 1_327_217_885  # the odd number nearest to SEEDS over the golden ratio
 
 
@@ -35,8 +40,17 @@ class Scene(SceneFields):
         sets in `overrides` the other way round. Raises SceneError with every sentence that says what is wrong and what
         would be right.
         """
+        return Scene.read(source, overrides)[0]
+
+    @staticmethod
+    def read(source: str | Path, overrides: Mapping[str, str] | None = None) -> "tuple[Scene, tuple[Assumed, ...]]":
+        """Read a scene as `from_toml` does; return it with the values that neither file nor overrides give.
+
+        A file without a `name` is called after itself.
+        """
         table, folders = given(source, overrides or {})
-        return Scene.from_dict(table, *folders)
+        table.setdefault("name", re.sub(r"[^\w-]", "_", Path(source).stem))
+        return _built(table, folders)
 
     @staticmethod
     def from_dict(table: Mapping[str, Any], *folders: Path) -> "Scene":
@@ -45,13 +59,7 @@ class Scene(SceneFields):
         Files of heights, sets and maps are looked for in the folders, in their order; without any in the working
         folder.
         """
-        filled, open_fields = provisional(completed(located(table, *(folders or (Path(),)))))
-        scene: Scene = build(Scene, filled, "")
-        first, second = (
-            getattr(scene, name).with_file(name, folders or (Path(),)) for name in ("surface_1", "surface_2")
-        )
-        film = with_map_found(scene.film, folders or (Path(),))
-        return checked(planned(replace(scene, surface_1=first, surface_2=second, film=film), open_fields))
+        return _built(table, folders or (Path(),))[0]
 
     def with_heights(
         self, body: int, heights: ArrayLike, spacing: float | str, unit: str = "m", beyond: str = "mirrored"
@@ -117,10 +125,41 @@ class Scene(SceneFields):
         """Return sentences on what can be computed but is not resolved well."""
         return checks.warnings(self)
 
+    def doubts(self) -> list[str]:
+        """Return sentences on numbers that look like mistakes, which the commands ask back before they run."""
+        return plausibility.doubts(self)
+
+
+def _built(table: Mapping[str, Any], folders: tuple[Path, ...]) -> tuple[Scene, tuple[Assumed, ...]]:
+    """Return the checked scene of nested tables, and the values that these do not give."""
+    given, assumed = completed_by_defaults(located(table, *folders))
+    chosen, for_accuracy = provisional(completed(given))
+    filled, of_grid = hertz_grid.provisional(chosen)
+    try:
+        scene: Scene = build(Scene, filled, "")
+    except TableError as error:
+        error.way_out = _TO_START
+        raise
+    first, second = (getattr(scene, name).with_file(name, folders) for name in ("surface_1", "surface_2"))
+    scene = replace(scene, surface_1=first, surface_2=second, film=with_map_found(scene.film, folders))
+    if of_grid:
+        _refuse_ranges(scene)  # first, for the contact's size is asked for
+    scene = planned(hertz_grid.fitted(scene, of_grid), for_accuracy)
+    scene, taken = hertz_grid.resolved(scene, assumed, of_grid)
+    return checked(scene), (*taken, *hertz_grid.assumed(scene, of_grid))
+
+
+def _refuse_ranges(scene: Scene) -> None:
+    sentences = list(out_of_range(scene, ""))
+    if sentences:
+        raise SceneError(" ".join(sentences))
+
 
 def checked(scene: Scene) -> Scene:
     """Return the scene as it is. Raises SceneError with all sentences on what makes it unusable."""
     errors = scene.check()
     if errors:
-        raise SceneError(" ".join(sentence for _, sentence in errors))
+        in_range = all(rule != "range" for rule, _ in errors)
+        causes = list(plausibility.of_roughness(scene)) if in_range else []  # of lengths that follow from it
+        raise SceneError(" ".join([*causes, *(sentence for _, sentence in errors)]))
     return scene

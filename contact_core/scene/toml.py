@@ -1,6 +1,7 @@
 """TOML to records, with a sentence for everything that does not fit, and back."""
 
 import difflib
+import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
@@ -15,6 +16,7 @@ from ..laws import SLOTS
 from ..laws.base import Model
 from ..shapes import GEOMETRIES
 from . import units
+from .problems import Missing, TableError
 from .records import ACCURACY, CHOSEN
 from .self_affine import SelfAffine
 from .surface import Surface
@@ -27,6 +29,7 @@ _KINDS: dict[str, tuple[type[Model], ...]] = {
 }
 _USUAL = {"geometry", "surface_1", "surface_2"}  # without a `model`: the first kind
 _UNNAMED = Surface  # its tables have never had a `model`, and stored states go by their text
+_DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data sheet"
 _SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
 
 
@@ -42,7 +45,8 @@ def read_table(source: str | Path, kind: str = "scene") -> dict[str, Any]:
     try:
         return tomllib.loads(text_of(source, kind))
     except tomllib.TOMLDecodeError as error:
-        raise SceneError(f"The {kind} file '{source}' is not valid TOML: {error}.") from None
+        hint = _of_toml(Path(source), error)
+        raise SceneError(f"The {kind} file '{source}' is not valid TOML: {error}.{hint}") from None
 
 
 def text_of(source: str | Path, kind: str = "scene") -> str:
@@ -74,6 +78,21 @@ def given(source: str | Path, overrides: Mapping[str, str]) -> tuple[dict[str, A
         last = key.rpartition(".")[2]
         override(table, key, located({last: value}, *reversed(folders))[last])
     return table, folders
+
+
+def _of_toml(path: Path, error: ValueError) -> str:
+    """Return what the line of a TOML error should be, where that is known, or an empty text."""
+    place = re.search(r"at line (\d+)", str(error))
+    if not place:
+        return ""
+    line = path.read_text("utf-8").splitlines()[int(place[1]) - 1].strip()
+    bare = re.sub(r"\"[^\"]*\"|'[^']*'", "", line.split("#")[0])
+    key, _, value = (part.strip(" ;") for part in line.partition("="))
+    if re.search(r"=\s*[+-]?[\d.,]*\d", bare) and '"' not in value:
+        return f' Values with a unit stand in quotes, and decimals have a point: {key} = "{value.replace(",", ".")}".'
+    if ";" in bare:
+        return f" Leave out the ';' of '{line}': a line ends without one, and a list has commas."
+    return f" The line is '{line}'."
 
 
 def folder_of(source: str | Path) -> Path:
@@ -109,7 +128,7 @@ def override(table: dict[str, Any], key: str, value: str) -> None:
         if not isinstance(table, dict):
             raise SceneError(f"'{key}' cannot be set: '{part}' is a value, not a table.")
     if last == "model":
-        full = _with_named_set(dict(table), where)
+        full = with_named_set(dict(table), where)
         if full.get("model") == value:
             return
         table.clear()
@@ -128,25 +147,28 @@ def flat(table: Mapping[str, Any], path: str = "") -> dict[str, Any]:
 
 
 def build(cls: type, table: Any, path: str) -> Any:
-    """Return a record of `cls` from a table; every error names the table and the key."""
+    """Return a record of `cls` from a table. Raises SceneError with all that is wrong or missing, by table and key."""
     if not isinstance(table, Mapping):
         raise SceneError(f"[{path}] must be a table.")
-    table = _with_named_set(dict(table), path)
+    table = with_named_set(dict(table), path)
     known, hints = {f.name: f for f in fields(cls)}, get_type_hints(cls)
+    problems = TableError()
     for key in table:
         if key not in known:
             where = f"[{path}]" if path else "The scene"
             keys = [*(["model"] if cls in models_of(path) else []), *known]
-            hint = _elsewhere(cls, key, path) or did_you_mean(key, keys)
-            raise SceneError(f"{where} has no key '{key}'.{hint} Known are {', '.join(keys)}.")
+            other = _elsewhere(cls, key, path) or did_you_mean(key, keys)
+            hint = _inside(hints, key, path) or f"{other} Known are {', '.join(keys)}."
+            problems.wrong.append(f"{where} has no key '{key}'.{hint}")
     values = {}
     for name, f in known.items():
         full = f"{path}.{name}" if path else name
-        if name not in table and f.default is not MISSING:
-            continue
-        if name not in table:
-            raise SceneError(f"'{full}' is missing. {_hint(f)}")
-        values[name] = _value(hints[name], table[name], full, f)
+        if name in table:
+            with problems.collected():
+                values[name] = _value(hints[name], table[name], full, f)
+        elif f.default is MISSING:
+            problems.missing.append(_missing(full, f))
+    problems.refuse()
     return cls(**values)
 
 
@@ -156,6 +178,17 @@ def _elsewhere(cls: type, key: str, path: str) -> str:
     own = [law.name for law in models if law is cls]
     others = [f"'{law.name}'" for law in models if key in {f.name for f in fields(law)}]
     return f" It belongs to model = {' or '.join(others)}, not to '{own[0]}'." if others else ""
+
+
+def _inside(hints: Mapping[str, Any], key: str, path: str) -> str:
+    """Return which tables inside a table have a key that itself does not have, or an empty text."""
+    tables = []
+    for name, hint in hints.items():
+        full = f"{path}.{name}" if path else name
+        records = models_of(full) or ((hint,) if is_dataclass(hint) else ())
+        if any(key in {f.name for f in fields(record)} for record in records):
+            tables.append(f"[{full}]")
+    return f" It belongs to {' or '.join(tables)}." if tables else ""
 
 
 def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:
@@ -191,7 +224,7 @@ def _build_law(models: tuple[type[Model], ...], raw: Any, path: str) -> Any:
         raw = {"model": raw}
     if not isinstance(raw, Mapping):
         raise SceneError(f"[{path}] must be a table with a 'model', or the model's name.")
-    table, names = _with_named_set(dict(raw), path), {m.name: m for m in models}
+    table, names = with_named_set(dict(raw), path), {m.name: m for m in models}
     model = table.pop("model", None)
     if model not in names:
         said = f"has no model '{model}'." + did_you_mean(str(model), list(names)) if model else "needs a 'model'."
@@ -255,7 +288,7 @@ def file_of_set(given: str, path: str) -> tuple[Path, str]:
     return folder / f"{_SET_FILES[path]}.toml", given.strip().lower()
 
 
-def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
+def with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
     """Replace `set = "name"` (in capitals or not) by the named values of data/*.toml; keys written beside it win.
 
     `set = "PATH.toml:name"` takes them from the table [name.`path`] of that file.
@@ -289,12 +322,33 @@ def _merged(base: Mapping[str, Any], over: Mapping[str, Any], path: str) -> dict
     return merged
 
 
-def _hint(f: "Field[Any]") -> str:
-    if "unit" not in f.metadata:
-        models = ", ".join(law.name for law in models_of(f.name))
-        return f"Add the table, with a 'model': {models}." if models else "Add the table."
-    unit = f" [{f.metadata['unit']}]" if f.metadata["unit"] else ""
-    return f"Give it{unit}: {f.metadata['text']}."
+def _missing(full: str, f: "Field[Any]") -> Missing:
+    """Return what to say of a field that a table does not give."""
+    part, _, last = full.rpartition(".")
+    models, sets = models_of(last), named_sets(part)
+    instead = f", or {part}.set = one of {', '.join(sets)}" if sets else ""
+    if "unit" in f.metadata:
+        unit, text = f.metadata["unit"], f"{f.metadata['text']}{instead}"
+        unit = f" [{unit}]" if unit else ""
+        return Missing(full, f"{unit} ({text})".strip(), f"Give it{unit}: {text}.")
+    if models:
+        sheet = f"{_DATA_SHEET}, or " if full == "lubricant.viscosity" else ""
+        text = f"{sheet}a 'model': {', '.join(law.name for law in models)}{instead}"
+        return Missing(full, f"({text})", f"Add the table, with {text}.")
+    if f.type in (str, "str"):
+        return Missing(full, "(text in quotes)", "Give it as text in quotes.")
+    return Missing(full, "(a table)", f"Add the table [{full}].")
+
+
+def named_sets(path: str) -> list[str]:
+    """Return the names of the sets that come with the package for a table."""
+    if path not in _SET_FILES:
+        return []
+    return [key for key, value in _shipped_sets(path).items() if isinstance(value.get(path), dict)]
+
+
+def _shipped_sets(path: str) -> dict[str, Any]:
+    return tomllib.loads((files("contact_core") / "data" / f"{_SET_FILES[path]}.toml").read_text("utf-8"))
 
 
 def unbuild(record: Any) -> dict[str, Any]:

@@ -29,12 +29,22 @@ _BASE: dict[str, tuple[float, Dimension]] = {
     "eV": (1.602176634e-19, (2, 1, -2, 0, 0)),
     "mol": (6.02214076e23, (0, 0, 0, 0, 0)),  # a number: kJ/mol are energies per molecule
     "St": (1e-4, (2, 0, -1, 0, 0)),
+    "l": (1e-3, (3, 0, 0, 0, 0)),  # as data sheets have densities: kg/l, g/ml
+    "L": (1e-3, (3, 0, 0, 0, 0)),
     "%": (1e-2, (0, 0, 0, 0, 0)),
     "1": (1.0, (0, 0, 0, 0, 0)),
 }
-_PREFIX = {"n": 1e-9, "u": 1e-6, "µ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6, "G": 1e9}
-_PREFIXABLE = {"m", "g", "s", "K", "N", "Pa", "J", "W", "P", "St"}
-_TOKEN = re.compile(r"([A-Za-zµ%]+|1)(?:\^?(-?\d+))?$")
+_PREFIX = {"n": 1e-9, "u": 1e-6, "\u00b5": 1e-6, "\u03bc": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6, "G": 1e9}
+_PREFIXABLE = {"m", "g", "s", "K", "N", "Pa", "J", "W", "P", "St", "l", "L"}
+_MEANT = {  # what people write for a unit
+    "C": "degC", "c": "degC", "°": "degC", "deg": "degC", "celsius": "degC", "Celsius": "degC", "sec": "s",
+    "secs": "s", "second": "s", "seconds": "s", "minute": "min", "minutes": "min", "hr": "h", "hrs": "h", "hour": "h",
+    "hours": "h", "RPM": "rpm", "micron": "um", "microns": "um", "cst": "cSt", "CSt": "cSt", "cp": "cP", "mps": "m/s",
+    "GPA": "GPa", "MPA": "MPa", "newton": "N", "n": "N", "KN": "kN", "Kg": "kg", "percent": "%",
+}  # fmt: skip
+_COMMA = re.compile(r"\s*[+-]?\d*,\d")
+_THOUSANDS = re.compile(r"\s*[+-]?[1-9]\d{0,2}(,\d{3})+(?!\d)")
+_TOKEN = re.compile(r"([A-Za-z\u00b5\u03bc%]+|1)(?:\^?(-?\d+))?$")
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf|nan)\s*(.*)$")
 
 
@@ -51,7 +61,9 @@ def unit(text: str) -> tuple[float, Dimension]:
             match = _TOKEN.match(token)
             known = match and _lookup(match[1])
             if not match or not known:
-                raise SceneError(f"'{token}' in '{text}' is not a unit known here. Use SI units and prefixes.")
+                said = f" Did you mean '{_MEANT[token]}'?" if token in _MEANT else ""
+                where = f"'{token}' in '{text}'" if token != text else f"'{token}'"
+                raise SceneError(f"{where} is not a unit known here.{said} Use SI units and prefixes.")
             power = sign * int(match[2] or 1)
             factor *= known[0] ** power
             for axis in range(5):
@@ -77,6 +89,7 @@ def parse(value: object, si_unit: str, name: str) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise SceneError(f"{name} = {value!r} is not a number. Write for example {_example(si_unit)}.")
     if isinstance(value, str):
+        _refuse_marks(value, name)
         match = _NUMBER.match(value)
         if not match:
             raise SceneError(f"{name} = {value!r} does not start with a number. Write {_example(si_unit)}.")
@@ -102,6 +115,16 @@ def parse(value: object, si_unit: str, name: str) -> float:
         )
     # divide by the inverse of small factors: 8 um gives exactly 8e-6
     return number / round(1.0 / factor) if factor < 1 and _is_whole(1.0 / factor) else number * factor
+
+
+def _refuse_marks(text: str, name: str) -> None:
+    """Raise SceneError for a decimal comma and for semicolons."""
+    if ";" in text:
+        raise SceneError(f"{name} = {text!r} has a ';'. Give one number with its unit, and nothing after it.")
+    if _COMMA.match(text):
+        point = re.sub(r"^(\s*[+-]?),", r"\g<1>0,", text).replace(",", ".", 1)
+        thousands = f" If it separates thousands, write '{text.replace(',', '')}'." if _THOUSANDS.match(text) else ""
+        raise SceneError(f"{name} = {text!r} has a comma, and decimals have a point: write '{point}'.{thousands}")
 
 
 def _without_angle(text: str) -> tuple[int, ...]:

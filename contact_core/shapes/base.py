@@ -116,11 +116,17 @@ class GridRecord(Protocol):
         """Distance between nodes [m]."""
 
 
+def combined(axis: str) -> str:
+    """Return what a radius of a geometry is."""
+    return f"combined radius of curvature along {axis}, 1 / (1/R_1 + 1/R_2): of a ball on a flat that of the ball"
+
+
 @dataclass(frozen=True, kw_only=True)
 class Bodies:
     """Curvature along x, and the path of a surface point between two passes through the contact."""
 
-    radius_x: float = input_parameter("radius_x")  # where an operating point gives none
+    # where an operating point gives none
+    radius_x: float = input_parameter("radius_x", text=combined("x"))
     track_length_1: float = parameter("m", "travel of a point of body 1 between two passes", above=0.0, most=1e3)
     track_length_2: float = parameter("m", "travel of a point of body 2 between two passes", above=0.0, most=1e3)
 

@@ -9,7 +9,7 @@ from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing
 from ..quantities import input_parameter
 from ..reference import Hertz, SmoothContact, hamrock_dowson, hertz_point, nvm_film, rolling_point
-from .base import Array, Bodies, GridRecord, Shape, Viscosity
+from .base import Array, Bodies, GridRecord, Shape, Viscosity, combined
 from .equations import HALF_SPACE, LOAD_BALANCE, PARABOLAS, REDUCED, ROLLING_NOTE
 
 
@@ -155,7 +155,7 @@ class PointGeometry(Bodies):
     bounded_across: ClassVar[bool] = True
     lumped: ClassVar[bool] = True
 
-    radius_y: float = input_parameter("radius_y")
+    radius_y: float = input_parameter("radius_y", text=combined("y"))
 
     def shape(self, radius_x: float | None = None, radius_y: float | None = None) -> Shape:
         """Return the shape with these radii [m], or with the geometry's own."""

@@ -38,7 +38,17 @@ RUNTIME: dict[Fmi, tuple[str, ...]] = {2: ("fmi2.c", *_SHARED), 3: ("fmi3.c", "f
 
 WARNINGS = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror")
 # no fused multiply-adds: equal bits on every platform
-FLAGS = ("-O2", "-g0", "-s", "-shared", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-fno-math-errno")
+FLAGS = (
+    "-O2",
+    "-g0",
+    "-s",
+    "-shared",
+    "-fPIC",
+    "-fvisibility=hidden",
+    "-ffp-contract=off",
+    "-fno-math-errno",
+    "-fno-tree-slp-vectorize",  # numbers in pairs make the series of elementary.h slower
+)
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,26 @@
 
 #include "tables.h"
 
+#ifdef __GNUC__
+#define SELDOM static __attribute__((noinline, cold, unused))
+#else
+#define SELDOM static
+#endif
+
+/* bits of a double: 1 of the sign, 11 of the exponent, 52 of the fraction */
+#define LEAST_NORMAL 0x0010000000000000u
+#define NORMAL 0x7fe0000000000000u /* positive normal numbers have bits from LEAST_NORMAL, and so many of them */
+#define UPPER_HALF 0xfffffffff8000000u
+
 static inline double smaller(double x, double y) { return y < x ? y : x; }
 static inline double larger(double x, double y) { return y > x ? y : x; }
 static inline double squared(double x) { return x * x; }
+static inline double cubed(double x) { return x * x * x; }
+static inline double fourth_power(double x) { return squared(squared(x)); }
+static inline double eighth_power(double x) { return squared(fourth_power(x)); }
+static inline double fourth_root(double x) { return sqrt(sqrt(x)); }
+static inline double power_0_75(double x) { return sqrt(x) * fourth_root(x); }
+static inline double power_1_5(double x) { return x * sqrt(x); }
 
 static inline double from_bits(uint64_t bits)
 {
@@ -31,78 +48,108 @@ static inline uint64_t bits_of(double x)
     return bits;
 }
 
-/* e^(high + low) as a scale and what is to be added to it: for |low| far below one unit in the last place of high */
-static inline double exp_parts(double high, double low, double *added)
+/* The first 26 bits of a double: the product of two such numbers is exact. */
+static inline double upper_half(double x) { return from_bits(bits_of(x) & UPPER_HALF); }
+
+/* a power of e: 2^(n / 256), by what share of that it is more, and the rest of the exponent beyond n ln(2) / 256 */
+struct exponential {
+    double scale;
+    double more;
+    double rest;
+};
+
+/* e^(high + low) of |high| < 708 and a small low. What comes late, low and the ends of series, is added last: a processor
+   does the others in the meantime. */
+static inline struct exponential exp_parts(double high, double low)
 {
-    const double rounded = high * PARTS_PER_LN2 + 0x1.8p52; /* n in its last bits */
+    const double rounded = high * PARTS_PER_LN2 + 0x1.8p52; /* its last bits are those of n, a whole number */
     const double n = rounded - 0x1.8p52;
-    const double r = (high - n * PART_UPPER) - (n * PART_LOWER - low); /* at most ln(2) / 128: Taylor's series */
+    const uint64_t bits = bits_of(rounded);
+    const double *part = power_of_two[bits & 255];
+    const double r = ((high - n * PART_UPPER) - n * PART_LOWER) + low; /* at most ln(2) / 512: Taylor's series */
     const double r2 = r * r;
-    const double end = (1.0 / 24.0 + r * (1.0 / 120.0)) + r2 * (1.0 / 720.0);
-    const double series = r + r2 * ((0.5 + r * (1.0 / 6.0)) + r2 * end);
-    const int64_t whole = (int64_t)n;
-    const double *part = power_of_two[whole & 63];
-    const double scale = from_bits((uint64_t)(1023 + (whole >> 6)) << 52);
-    *added = scale * (part[1] + part[0] * series);
-    return scale * part[0];
+    const double more = (part[1] + r) + r2 * ((0.5 + r * (1.0 / 6.0)) + r2 * (1.0 / 24.0));
+    const struct exponential found = {from_bits(bits_of(part[0]) + ((bits >> 8) << 52)), more, r};
+    return found;
+}
+
+/* e^(high + low) where exp_parts has an end: near the largest number, below the smallest normal one, and beyond */
+SELDOM double exp_at_ends(double high, double low)
+{
+    if (high > 709.782712893384) {
+        return INFINITY;
+    }
+    if (!(high > -746.0)) {
+        return high != high ? high : 0.0;
+    }
+    const double half = high > 0.0 ? 64.0 : -64.0;
+    const struct exponential found = exp_parts(high - half, low);
+    return (found.scale + found.scale * found.more) * (high > 0.0 ? 0x1.425982cf597cdp+92 : 0x1.969d47321e4ccp-93);
 }
 
 static inline double exp_of(double high, double low)
 {
     if (!(fabs(high) < 708.0)) {
-        if (high > 709.782712893384) {
-            return INFINITY;
-        }
-        if (high > -746.0) { /* near the largest number, or below the smallest normal one */
-            const double half = high > 0.0 ? 64.0 : -64.0;
-            return exp_of(high - half, low) * (high > 0.0 ? 0x1.425982cf597cdp+92 : 0x1.969d47321e4ccp-93);
-        }
-        return high != high ? high : 0.0;
+        return exp_at_ends(high, low);
     }
-    double added;
-    const double scale = exp_parts(high, low, &added);
-    return scale + added;
+    const struct exponential found = exp_parts(high, low);
+    return found.scale + found.scale * found.more;
 }
 
-/* ln(x + extra) of a finite x > 0 and an extra below its last place as a sum: a large part and what is missing in it */
-static inline double log_of(double x, double extra, double *low)
+/* a logarithm as a sum: a large part, and what is missing in it */
+struct logarithm {
+    double high;
+    double low;
+};
+
+/* ln(x) of a normal x > 0, from its bits */
+static inline struct logarithm log_parts(uint64_t bits)
 {
-    int64_t exponent = 0;
-    if (x < 0x1p-1022) { /* not normal */
-        x *= 0x1p54;
-        exponent = -54;
-    }
-    uint64_t bits = bits_of(x);
-    const int64_t above = (bits & 0x000fffffffffffffu) > 0x6a09e667f3bcdu; /* the square root of 2 */
-    const int64_t power = (int64_t)(bits >> 52) - 1023 + above;
-    bits = (bits & 0x000fffffffffffffu) | (uint64_t)(1023 - above) << 52;
-    const double m = from_bits(bits);
-    const int k = (int)(m * 128.0 + 0.5);
-    const double *near = centre[k - FIRST_CENTRE];
-    const double n = (double)(exponent + power);
-    const double shift = extra == 0.0 ? 0.0 : extra * from_bits((uint64_t)(1023 - power) << 52);
-    const double r = ((m - k * 0x1p-7) + shift) * near[0]; /* at most 1/180: Taylor's series */
+    const uint64_t above = bits - LEAST_MANTISSA;
+    const double *near = centre[(above >> 44) & 255];
+    const double n = (double)((int64_t)above >> 52);
+    const double m = from_bits(bits - (above & 0xfff0000000000000u)); /* x / 2^n, from about 0.69 to 1.38 */
+    const double r = (m - near[0]) * near[1]; /* at most 1/512: Taylor's series */
     const double r2 = r * r;
-    const double series = r2 * ((r * (1.0 / 3.0) - 0.5) + r2 * ((r * (1.0 / 5.0) - 0.25) + r2 * (r * (1.0 / 7.0) - 1.0 / 6.0)));
-    const double large = n * LN2_UPPER + near[1]; /* exact */
+    const double series = r2 * ((r * (1.0 / 3.0) - 0.5) + r2 * ((r * (1.0 / 5.0) - 0.25) - r2 * (1.0 / 6.0)));
+    const double large = n * LN2_UPPER + near[2]; /* exact */
     const double high = large + r;
-    *low = ((large - high) + r) + (series + (near[2] + n * LN2_LOWER));
-    return high;
+    const struct logarithm found = {high, (((large - high) + r) + (near[3] + n * LN2_LOWER)) + series};
+    return found;
+}
+
+/* ln(x) of any finite x > 0 */
+SELDOM struct logarithm log_of(double x)
+{
+    const uint64_t bits = bits_of(x);
+    if (bits >= LEAST_NORMAL) {
+        return log_parts(bits);
+    }
+    const struct logarithm found = log_parts(bits_of(x * 0x1p54));
+    const struct logarithm scaled = {found.high - 54.0 * LN2_UPPER, found.low - 54.0 * LN2_LOWER};
+    return scaled;
 }
 
 static inline double own_exp(double x) { return exp_of(x, 0.0); }
 
+/* ln(x) of an x that is not normal, or not above 0 */
+SELDOM double log_at_ends(double x)
+{
+    if (!(x > 0.0 && x < INFINITY)) {
+        return x == 0.0 ? -INFINITY : x > 0.0 ? x : NAN;
+    }
+    const struct logarithm found = log_of(x);
+    return found.high + found.low;
+}
+
 static inline double own_log(double x)
 {
-    if (!(x > 0.0)) {
-        return x < 0.0 || x != x ? NAN : -INFINITY;
+    const uint64_t bits = bits_of(x);
+    if (bits - LEAST_NORMAL >= NORMAL) {
+        return log_at_ends(x);
     }
-    if (x > 0x1.fffffffffffffp+1023) {
-        return x;
-    }
-    double low;
-    const double high = log_of(x, 0.0, &low);
-    return high + low;
+    const struct logarithm found = log_parts(bits);
+    return found.high + found.low;
 }
 
 static inline double own_log10(double x) { return own_log(x) * 0x1.bcb7b1526e50ep-2; }
@@ -113,9 +160,9 @@ static inline double own_log1p(double x)
     if (!(u > 0.0) || u > 0x1p52) {
         return own_log(u);
     }
-    double low;
-    const double high = log_of(u, u > 2.0 ? 1.0 - (u - x) : x - (u - 1.0), &low); /* lost in the rounding of u */
-    return high + low;
+    const double lost = u > 2.0 ? 1.0 - (u - x) : x - (u - 1.0); /* in the rounding of u */
+    const struct logarithm found = log_parts(bits_of(u));
+    return found.high + (found.low + lost / u);
 }
 
 static inline double own_expm1(double x)
@@ -123,15 +170,16 @@ static inline double own_expm1(double x)
     if (!(fabs(x) < 40.0)) {
         return own_exp(x) - 1.0;
     }
-    double added;
-    const double scale = exp_parts(x, 0.0, &added);
-    return (scale - 1.0) + added;
+    const struct exponential found = exp_parts(x, 0.0);
+    const double r = found.rest, r2 = r * r;
+    const double more = found.more + r2 * r2 * (r * (1.0 / 120.0)); /* which counts where x is small */
+    return (found.scale - 1.0) + found.scale * more;
 }
 
-/* x^y of x >= 0 */
-static inline double own_pow(double x, double y)
+/* x^y of an x that is zero, below the normal numbers, infinite or not a number */
+SELDOM double power_at_ends(double x, double y)
 {
-    if (y == 0.0 || x == 1.0) {
+    if (y == 0.0) {
         return 1.0;
     }
     if (!(x > 0.0)) {
@@ -140,18 +188,29 @@ static inline double own_pow(double x, double y)
     if (x > 0x1.fffffffffffffp+1023) {
         return y > 0.0 ? INFINITY : 0.0;
     }
-    double low;
-    const double high = log_of(x, 0.0, &low);
-    const double product = high * y;
-    if (!(fabs(product) < 750.0)) {
-        return product != product ? NAN : product > 0.0 ? INFINITY : 0.0;
+    const struct logarithm found = log_of(x);
+    return exp_of(found.high * y, found.low * y);
+}
+
+/* x^y, given the logarithm of a normal x */
+static inline double power_of(struct logarithm of_x, double y)
+{
+    const double first = upper_half(of_x.high), of_y = upper_half(y);
+    const double high = first * of_y; /* exact */
+    return exp_of(high, (first * (y - of_y) + (of_x.high - first) * y) + of_x.low * y);
+}
+
+/* x^y of x >= 0 */
+static inline double own_pow(double x, double y)
+{
+    const uint64_t bits = bits_of(x);
+    if (x == 1.0) {
+        return 1.0;
     }
-    /* what the rounding of the product loses, by Dekker's halves */
-    const double a = high * 134217729.0, b = y * 134217729.0;
-    const double a1 = a - (a - high), b1 = b - (b - y);
-    const double a2 = high - a1, b2 = y - b1;
-    const double lost = ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2;
-    return exp_of(product, lost + low * y);
+    if (bits - LEAST_NORMAL >= NORMAL) {
+        return power_at_ends(x, y);
+    }
+    return power_of(log_parts(bits), y);
 }
 
 static inline double own_tanh(double x)
@@ -167,9 +226,22 @@ static inline double own_tanh(double x)
 static inline double own_asinh(double x)
 {
     const double size = fabs(x);
-    const double square = size * size;
-    const double found = size > 1e150 ? own_log(size) + 0x1.62e42fefa39efp-1
-                                      : own_log1p(size + square / (1.0 + sqrt(1.0 + square)));
+    double found;
+    if (!(size < 1e150)) {
+        found = own_log(size) + LN2;
+    } else {
+        const double square = size * size;
+        const double root = sqrt(1.0 + square);
+        if (size > 1.0) {
+            const struct logarithm of_sum = log_parts(bits_of(size + root));
+            found = of_sum.high + of_sum.low;
+        } else {
+            const double more = size + square / (1.0 + root);
+            const double u = 1.0 + more;
+            const struct logarithm of_u = log_parts(bits_of(u));
+            found = of_u.high + (of_u.low + (more - (u - 1.0)) / u);
+        }
+    }
     return x < 0.0 ? -found : found;
 }
 

@@ -22,7 +22,12 @@ def sources(scene: Scene, fmi: Version) -> dict[str, bytes]:
 def contact(scene: Scene) -> dict[str, bytes]:
     """Return the equations of a scene. Raises SceneError if it has none without a solver."""
     texts = {**program.written(scene), "tables.h": tables_h()}
-    return {name: text.encode() for name, text in texts.items()}
+    also = [name for name in _WHERE_NEEDED if any(f'#include "{name}"' in text for text in texts.values())]
+    own = {name: (build.FOLDER / name).read_bytes() for name in also}
+    return {**own, **{name: text.encode() for name, text in texts.items()}}
+
+
+_WHERE_NEEDED = ("normal.h",)
 
 
 def binaries(sources: Mapping[str, bytes], fmi: Version, model: str = MODEL, here: bool = False) -> dict[str, bytes]:

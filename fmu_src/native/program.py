@@ -7,26 +7,27 @@ for one scene. All equations are those of `contact_core`.
 import copy
 import dataclasses
 import json
-import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
+
+import numpy as np
 
 from contact_core import initial_state
 from contact_core.errors import OperatingPointError, SceneError
 from contact_core.film import Mapped, Regression
 from contact_core.mapped.map import map_of
-from contact_core.mapped.query import corrected
+from contact_core.mapped.query import corrected, slopes
 from contact_core.quantities import OF_CALLER, OF_CORE
 from contact_core.regression import evolution
 from contact_core.regression.contact import MeanContact, evaluate
 from contact_core.regression.surfaces import Tribofilms, tribofilms_of
 from contact_core.scene import Case, OperatingPoint, Scene
-from contact_core.state import ContactState, Mean, Outputs, changed
+from contact_core.state import Classes, ContactState, Mean, Outputs, changed
 from contact_core.surfaces.track_means import means_of
 
-from ..variables import Variable, variables
-from .names import c_name
-from .translate import Entry, Num, Translator, Untranslatable, is_number, literal, parts, wrapped
+from ..variables import variables
+from .calls import TRACKS, calling, header, initialise, source, stack_of
+from .translate import Entry, Num, Stored, Translator, Untranslatable, array_kind, is_number, literal, parts
 
 Found = tuple[ContactState, Outputs]
 
@@ -54,6 +55,8 @@ def bound(given: Case, state: ContactState) -> Case:
     return case
 
 
+_MOST_STACK = 768 * 1024  # bytes of arrays; threads of Windows have 1 MB
+_BODIES = (2,)  # shape of arrays with a number for each body
 _COLD = 0.0  # K: no law covers it; as the temperature of a body: none yet
 _SAME_RADIUS = 1e-9  # relative: a host may convert units
 
@@ -88,8 +91,7 @@ def _withown_radii(case: Case) -> OperatingPoint:
 def step(case: Case, state: ContactState, dt: float) -> Found:
     """Return the state and the outputs after a step of `dt` [s]."""
     begun = _begun(case.op, state)
-    contacts = _contacts(case.scene, derivatives=False)
-    after, outputs = evolution.advance(bound(case, begun), begun, dt, contacts)
+    after, outputs = evolution.advance(bound(case, begun), begun, dt, _LEVELS[case.scene.film.name](case.scene))
     if case.scene.heat.bulk.stores_heat and dt == 0.0:  # bodies begin at the temperature of the oil of the first step
         after = changed(after, temperatures=state.temperatures)
     return after, outputs
@@ -100,34 +102,34 @@ def derivatives(case: Case, state: ContactState) -> tuple[float, float, float, f
     begun = _begun(case.op, state)
     now = bound(case, begun).warmed(begun.temperatures)
     assert state.means is not None
-    return _contacts(case.scene, derivatives=True)(now, tribofilms_of(state.means)).derivatives
+    films = tribofilms_of(state.means)
+    if _by_map(case.scene):
+        return slopes(map_of(case.scene), now, films)
+    return evaluate(now, films).derivatives
 
 
-def _contacts(scene: Scene, *, derivatives: bool) -> evolution.ContactOf:
-    """Return the function that evaluates contacts of a scene at its level."""
-    return _LEVELS[scene.film.name](scene, derivatives)
-
-
-def _of_curves(scene: Scene, derivatives: bool) -> evolution.ContactOf:
+def _of_curves(scene: Scene) -> evolution.ContactOf:
     def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-        return evaluate(case, tribofilms, derivatives)
+        return evaluate(case, tribofilms, derivatives=False)
 
     return contact_of
 
 
-def _of_map(scene: Scene, derivatives: bool) -> evolution.ContactOf:
+def _of_map(scene: Scene) -> evolution.ContactOf:
     chart = map_of(scene)
 
     def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-        return corrected(chart, case, evaluate(case, tribofilms, derivatives))
+        return corrected(chart, case, evaluate(case, tribofilms, derivatives=False))
 
     return contact_of
 
 
-_LEVELS: dict[str, Callable[[Scene, bool], evolution.ContactOf]] = {
-    Regression.name: _of_curves,
-    Mapped.name: _of_map,
-}
+# of a scene at its level, the function that evaluates contacts, without derivatives
+_LEVELS: dict[str, Callable[[Scene], evolution.ContactOf]] = {Regression.name: _of_curves, Mapped.name: _of_map}
+
+
+def _by_map(scene: Scene) -> bool:
+    return {Regression.name: False, Mapped.name: True}[scene.film.name]
 
 
 def _begun(point: OperatingPoint, state: ContactState) -> ContactState:
@@ -141,7 +143,7 @@ def _begun(point: OperatingPoint, state: ContactState) -> ContactState:
 def first_state(scene: Scene) -> ContactState:
     """Return the state of fresh surfaces, with their track means."""
     state = initial_state(scene)
-    return changed(state, means=state.means or means_of(scene, state))
+    return changed(state, means=state.means or means_of(scene, state), classes=evolution.classes_at(scene, state))
 
 
 def inputs_of(scene: Scene) -> tuple[str, ...]:
@@ -167,19 +169,28 @@ def _state(scene: Scene) -> ContactState:
     means = tuple(Mean(**{name: Num(f"{name}_{body}") for name in names}) for body in (1, 2))  # type: ignore[arg-type]
     before = changed(given.outputs, **{q.name: Num(f"last_{q.name}") for q in OF_CORE if q.kind == "Real"})
     warm = (Num("warm_1"), Num("warm_2")) if scene.heat.bulk.stores_heat else None
-    return changed(given, time=Num("time"), means=means, outputs=before, temperatures=warm)
+    classes = given.classes and Classes(**{name: _held(name, array) for name, array in vars(given.classes).items()})
+    return changed(given, time=Num("time"), means=means, outputs=before, temperatures=warm, classes=classes)
+
+
+def _held(name: str, array: np.ndarray) -> Any:
+    """Return an array of the state at run time; a number for each body is a number."""
+    if array.shape == _BODIES:
+        return np.array([Num(f"{name}_1"), Num(f"{name}_2")], object)
+    return Stored(array.shape, Num(name, array_kind("d", array.size)))
 
 
 def paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
     """Yield the numbers of state and outputs with the way to them."""
-    if is_number(value):
+    if isinstance(value, np.ndarray) and value.shape == _BODIES:
+        yield from paths(tuple(value), path)
+    elif is_number(value) or isinstance(value, np.ndarray):
         yield path, value
+    elif isinstance(value, Stored):
+        yield path, value.data
     else:
         for name, item in parts(value) or ():
             yield from paths(item, (*path, name))
-
-
-TRACKS = {"track_length_1": "TRACK_LENGTH_1", "track_length_2": "TRACK_LENGTH_2"}  # numbers in tracks.c
 
 
 def written(scene: Scene) -> dict[str, str]:
@@ -211,7 +222,7 @@ def _key(scene: Scene) -> str:
 
 def _may_vary(scene: Scene) -> bool:
     """Return True if track lengths can be numbers at run time: a map is read for the scene as it is."""
-    return {Regression.name: True, Mapped.name: False}[scene.film.name]
+    return not _by_map(scene)
 
 
 def _tracks(*lengths: float) -> str:
@@ -241,6 +252,11 @@ def _equations(scene: Scene) -> dict[str, str]:
             f"The equations of '{scene.name}' cannot be written as C: {error}\ndocs/how-to/native_fmu.md says what "
             "can. Write that line so, or build with --flavour isolated."
         ) from error
+    if (bytes_ := stack_of(step_texts)) > _MOST_STACK:
+        raise SceneError(
+            f"stress.layers = {scene.depths.size} needs {bytes_ / 1024:.0f} kB of stack in C, more than the "
+            f"{_MOST_STACK / 1024:.0f} kB that every host has. Lower stress.layers, or build with --flavour isolated."
+        )
     outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
     new_state, new_outputs = stepped.result
     after, first = dict(paths(new_state)), dict(paths(first_state(scene)))
@@ -248,7 +264,7 @@ def _equations(scene: Scene) -> dict[str, str]:
     held = [(path, number) for path, number in paths(state) if isinstance(number, Num) and number.text in needed]
     inputs = inputs_of(scene)
     stepping = [
-        *_initialise([(number.text, first.get(path)) for path, number in held]),
+        *initialise([(number.text, first.get(path, _COLD)) for path, number in held]),
         "",
         *calling(
             "contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out,",
@@ -270,7 +286,7 @@ def _equations(scene: Scene) -> dict[str, str]:
         "contact.h": header(
             f"One contact, '{scene.name}', at the regression level; written from contact_core.",
             variables(scene),
-            [number.text for _, number in held],
+            [f"{number.text}{number.kind[1:]}" for _, number in held],
             outputs,
             _OF_TRACKS,
         ),
@@ -285,11 +301,6 @@ def _check(scene: Scene) -> None:
         raise SceneError(
             f"film.model = '{scene.film.name}' solves contacts, and a native FMU has no solver. Set film.model = "
             f"{' or '.join(repr(name) for name in _LEVELS)}, or build with --flavour isolated."
-        )
-    if scene.stress.samples:
-        raise SceneError(
-            f"stress.model = '{scene.stress.name}' has stresses by depth and place, and a native FMU has numbers only. "
-            "Set stress.model = 'none' and fatigue.model = 'none', or build with --flavour isolated."
         )
 
 
@@ -319,132 +330,3 @@ def translated(function: Any, operands: list[Any], instead: Mapping[Any, Any] | 
 
 
 SLOPES = ("dfriction_dspeed_1", "dfriction_dspeed_2", "dfriction_dload", "dfriction_dtemperature")
-
-
-def _initialise(values: Sequence[tuple[str, Any]]) -> list[str]:
-    return [
-        "int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out,",
-        "    contact_message *why)",
-        "{",
-        *(f"    state->{name} = {literal(_COLD if value is None else value).text};" for name, value in values),
-        "    return contact_step(in, 0.0, state, out, why);",
-        "}",
-    ]
-
-
-def calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple[str, Any]]) -> list[str]:
-    """Return a function that calls an entry and sets members to numbers of what that returns."""
-
-    def text(value: Any) -> str:
-        if not isinstance(value, Num):
-            return literal(value).text
-        if not entry.name:
-            return entry.place(value, inputs, TRACKS.values()) if value.text.isidentifier() else value.text
-        return f"found.{value.text}" if entry.returns > 1 else "found"
-
-    called = entry.called(inputs, TRACKS.values()) if entry.name else ""
-    found = f"const {f'struct {entry.name}' if entry.returns > 1 else 'double'} found = {called};"
-    calls = wrapped(found if entry.returns else f"{called};", 1) if entry.returns or entry.may_fail else []
-    refuses = ["    if (why->text[0] != '\\0') {", "        return 1;", "    }"] if entry.may_fail else []
-    body = f"{called} {' '.join(text(value) for _, value in sets)}"
-    given = re.findall(r"(\w+)[,)]", f"{head})")
-    unread = [
-        name
-        for name in given
-        if name not in ("out", "state") and f"{name}->" not in body and name not in re.findall(r"\w+", body)
-    ]
-    if not any(target.startswith("state") for target, _ in sets) and "state->" not in body and "state" in given:
-        unread.append("state")
-    return [
-        f"int {head}",
-        "    contact_message *why)",
-        "{",
-        *(f"    (void){name};" for name in unread),
-        "    why->text[0] = '\\0';",
-        *calls,
-        *refuses,
-        *(f"    {target} = {text(value)};" for target, value in sets),
-        "    return 0;",
-        "}",
-    ]
-
-
-def source(texts: Sequence[str]) -> str:
-    """Return a C file of functions."""
-    refuses = [REFUSE] if any("refuse(" in text for text in texts) else []
-    return "\n\n".join([INCLUDES, *refuses, *texts]) + "\n"
-
-
-def struct(name: str, members: Sequence[str], about: dict[str, Variable]) -> list[str]:
-    """Return a struct of doubles, with a comment of what is known of each."""
-
-    def line(member: str) -> str:
-        if member not in about:
-            return f"    double {member};"
-        return f"    double {c_name(member)}; /* {about[member].text} [{about[member].unit or '1'}] */"
-
-    return ["typedef struct {", *map(line, members or ["none"]), f"}} {name};", ""]
-
-
-def header(
-    about: str, table: Sequence[Variable], fields: Sequence[str], outputs: Sequence[str], also: Sequence[str] = ()
-) -> str:
-    """Return contact.h for a table of variables, members of the state, outputs of the equations, and more lines."""
-    inputs = [v.name for v in table if v.causality == "input"]
-    known = {v.name: v for v in table}
-    return "\n".join(
-        [
-            f"/* {about} SI units. */",
-            "",
-            "#ifndef CONTACT_H",
-            "#define CONTACT_H",
-            "",
-            *struct("contact_inputs", inputs, known),
-            "/* The slow state: plain numbers, to be copied as they are. */",
-            *struct("contact_state", fields, {}),
-            *struct("contact_outputs", outputs, known),
-            "/* Why a step was refused; empty if it was not. */",
-            "typedef struct {",
-            "    char text[512];",
-            "} contact_message;",
-            "",
-            "/* Each returns 0, or 1 with a message: then state and outputs stand as they were. */",
-            "",
-            "/* Fresh surfaces, and the outputs of the contact as it is. */",
-            "int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out, "
-            "contact_message *why);",
-            "",
-            "/* A step of dt [s] under held inputs; dt = 0 evaluates the contact. */",
-            "int contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out, "
-            "contact_message *why);",
-            "",
-            "/* The outputs dfriction_d*, which the others do without: they cost as much as several steps. */",
-            "int contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out, "
-            "contact_message *why);",
-            "",
-            *also,
-            "#endif",
-            "",
-        ]
-    )
-
-
-INCLUDES = """\
-/* Written from contact_core; each function names the Python that it was written from. Do not edit. */
-
-#include "contact.h"
-#include "elementary.h"
-
-#include <stdarg.h>
-#include <stdio.h>"""
-
-REFUSE = """\
-static void refuse(contact_message *why, const char *format, ...)
-{
-    va_list operands;
-    va_start(operands, format);
-    vsnprintf(why->text, sizeof why->text, format, operands);
-    va_end(operands);
-}"""
-
-HEAD = f"{INCLUDES}\n\n{REFUSE}"

@@ -1,9 +1,11 @@
 """Tables of elementary.h: powers of two and logarithms, from Python's decimal numbers."""
 
+import struct
 from decimal import Decimal, localcontext
 
-_PARTS = 64  # of an octave, of the powers
-_FIRST, _LAST = 90, 182  # of the centres of logarithms, in 1/128: from below sqrt(1/2) to above sqrt(2)
+_PARTS = 256  # of an octave, of the powers
+_STRETCHES = 256  # of an octave, of the logarithms
+_LEAST = 0.6875 + 2.0**-10  # where the octave begins: 1 is the centre of a stretch
 _KEPT = 36  # bits of the upper part of a logarithm: whole multiples of ln 2 and it add up exactly
 _DIGITS = 60
 
@@ -17,31 +19,47 @@ def tables_h() -> str:
         lines = [
             "/* Tables of elementary.h, written by fmu_src.native.tables from decimal numbers. */",
             "",
+            f"#define LN2 {float(two).hex()}",
             f"#define LN2_UPPER {upper.hex()} /* with zeros at its end */",
             f"#define LN2_LOWER {float(two - Decimal(upper)).hex()}",
             f"#define PARTS_PER_LN2 {float(_PARTS / two).hex()}",
             f"#define PART_UPPER {(upper / _PARTS).hex()} /* ln(2) / {_PARTS} */",
             f"#define PART_LOWER {float((two - Decimal(upper)) / _PARTS).hex()}",
             "",
-            f"/* 2^(j/{_PARTS}), and what is missing in it */",
+            f"/* 2^(j/{_PARTS}), and what is missing in it, as a share of it */",
             f"static const double power_of_two[{_PARTS}][2] = {{",
             *(_row(*_apart((two * j / _PARTS).exp())) for j in range(_PARTS)),
             "};",
             "",
-            "/* centre c = k / 128: 1 / c, ln(c) with zeros at its end, and what is missing in it */",
-            f"#define FIRST_CENTRE {_FIRST}",
-            f"static const double centre[{_LAST - _FIRST + 1}][3] = {{",
-            *(_centre(k) for k in range(_FIRST, _LAST + 1)),
+            f"/* An octave from LEAST_MANTISSA, the bits of {_LEAST}, in {_STRETCHES} stretches of as many doubles.",
+            "   Of each the centre c, 1 / c, ln(c) with zeros at its end, and what is missing in it. */",
+            f"#define LEAST_MANTISSA {_bits(_LEAST):#018x}u",
+            f"static const double centre[{_STRETCHES}][4] = {{",
+            *(_centre(j) for j in range(_STRETCHES)),
             "};",
             "",
         ]
     return "\n".join(lines)
 
 
-def _centre(k: int) -> str:
-    logarithm = (Decimal(k) / 128).ln()
+def _centre(j: int) -> str:
+    first = _bits(_LEAST) + j * _STRETCH
+    ends = [_double(first), _double(first + _STRETCH)]
+    centre = 0.5 * sum(ends) if not ends[0] < 1.0 < ends[1] else 1.0
+    logarithm = Decimal(centre).ln()
     upper = _cut(logarithm, _KEPT)
-    return _row(float(Decimal(128) / k), upper, float(logarithm - Decimal(upper)))
+    return _row(centre, float(1 / Decimal(centre)), upper, float(logarithm - Decimal(upper)))
+
+
+_STRETCH = 2**52 // _STRETCHES
+
+
+def _bits(value: float) -> int:
+    return int(struct.unpack("<Q", struct.pack("<d", value))[0])
+
+
+def _double(bits: int) -> float:
+    return float(struct.unpack("<d", struct.pack("<Q", bits))[0])
 
 
 def _cut(value: Decimal, bits: int) -> float:
@@ -51,7 +69,7 @@ def _cut(value: Decimal, bits: int) -> float:
 
 def _apart(value: Decimal) -> tuple[float, float]:
     near = float(value)
-    return near, float(value - Decimal(near))
+    return near, float((value - Decimal(near)) / value)
 
 
 def _row(*values: float) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 from shutil import which
 
 from contact_core.errors import SceneError
-from contact_core.scene import Scene
+from contact_core.scene import Scene, told
 
 from ..flavours import FLAVOURS, VERSIONS, Flavour
 
@@ -72,8 +72,8 @@ def run(arguments: argparse.Namespace) -> int:
     """
     if arguments.python and arguments.flavour != "isolated":
         raise SceneError(f"--python is for isolated FMUs: {_NO_PYTHON[arguments.flavour]}. Leave it out.")
-    scene = Scene.from_toml(arguments.scene, _overrides(arguments.overrides))
-    for warning in scene.warnings():
+    scene, assumed = Scene.read(arguments.scene, _overrides(arguments.overrides))
+    for warning in (*filter(None, [told(assumed)]), *scene.doubts(), *scene.warnings()):
         print(f"Note: {warning}", file=sys.stderr)
     out = arguments.out or Path(f"{scene.name}.fmu")
     from .build import build

@@ -2,9 +2,12 @@
 
     main        the table of commands
     listing     list: what is shipped
+    new         new: a commented scene to start from
     explain     explain: laws, numbers and their sources, what is left out, what to trust
     surfaces    surfaces: what a grid shows of the surfaces
     run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
+    report      report: a run as one HTML page
+    compare     compare: runs beside each other, with their error bands
     stribeck    stribeck: Stribeck curves
     sweep       sweep: a scene with many values of its keys
     fit         fit: constants of a scene from measured numbers
@@ -13,9 +16,13 @@
     build       build: the FMU of a scene
     check       check: verdicts on an FMU
     cosim       cosim: a system of FMUs
+    completion  completion: a script for the shell
+    pages       the page of the documentation that explains an error
     scenes      the scene and duty that commands are given
     simulation  simulates a system with a checkpoint
     progress    progress bar, how to continue an unfinished run
+    overwriting  results of other runs are not replaced without a word
+    alive       keeps the bar moving while one solution takes long and kernels compile
     console     notes, the folder of the results, --set
 
 Every module is light to import: what a command needs is loaded when it runs.

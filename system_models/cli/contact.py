@@ -9,11 +9,16 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene
 
 from .console import note, output_folder
+from .overwriting import ask_before
 from .progress import continued_by_resume, note_replaced, shown
 from .scenes import chosen, contact, microroughness, warn
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import xarray as xr
+
+    from contact_core.state import Error
 
     from ..run.duty import Duty
     from ..run.fields import Fields
@@ -29,7 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
     warn(scene)
     with alone(folder):
-        return _run_in(folder, scene, duty, fields, arguments.resume)
+        return _run_in(folder, scene, duty, fields, arguments)
 
 
 def _fields(given: str | None, scene: Scene, duty: "Duty") -> "Fields | None":
@@ -45,14 +50,19 @@ def _fields(given: str | None, scene: Scene, duty: "Duty") -> "Fields | None":
     return Fields(scene, duty, points, int(given))
 
 
-def _run_in(folder: Path, scene: Scene, duty: "Duty", fields: "Fields | None", resume: bool) -> int:
-    count = len(fields.times) if fields else 0
+def _run_in(folder: Path, scene: Scene, duty: "Duty", fields: "Fields | None", arguments: argparse.Namespace) -> int:
+    from ..run import origin
+
+    count, resume = len(fields.times) if fields else 0, arguments.resume
     checkpoint = _checkpoint(folder, scene, duty, count, resume)
     if resume and not checkpoint.saved and (code := _finished(folder, scene, duty, count)) is not None:
         return code
+    if not checkpoint.saved:
+        ask_before(folder, origin.attributes(scene, duty, count), arguments.force)
+        _introduce(scene, duty)
     with continued_by_resume(lambda: checkpoint.file if checkpoint.count else None):
-        dataset = _simulate(scene, duty, checkpoint, fields)
-        code = _report(dataset, scene, duty, folder, fields)
+        dataset, errors = _simulate(scene, duty, checkpoint, fields)
+        code = _report(dataset, errors, scene, duty, folder, fields)
     checkpoint.remove()
     return code
 
@@ -86,15 +96,32 @@ def _finished(folder: Path, scene: Scene, duty: "Duty", fields: int) -> int | No
     return 1 if report.invalid_rows(dataset) else 0
 
 
-def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path, fields: "Fields | None") -> int:
+def _introduce(scene: Scene, duty: "Duty") -> None:
+    """Print what the contact is like, before it is solved."""
+    from ..run import trust
+
+    below = [f"Body {body}: {text}." for body, text in enumerate(microroughness(scene), 1)]
+    about = [*trust.before(scene, duty), *trust.wrapped(*chosen(scene), *below)]
+    print(*trust.wrapped(scene.description), *about, "", sep="\n", flush=True)
+
+
+def _report(
+    dataset: "xr.Dataset",
+    errors: "Mapping[str, Error]",
+    scene: Scene,
+    duty: "Duty",
+    folder: Path,
+    fields: "Fields | None",
+) -> int:
     """Print and write the result; return the exit code."""
-    from ..run import origin, report, track_picture
+    from ..run import causes, origin, report, track_picture, trust
     from ..store import results
 
     maps = fields.dataset() if fields and fields.kept else None
     dataset = origin.with_scene(dataset, scene, duty, len(fields.times) if fields else 0)
-    below = (f"Body {body}: {text}." for body, text in enumerate(microroughness(scene), 1))
-    print(scene.description, report.table(dataset), *chosen(scene), *below, *report.closing_lines(dataset), sep="\n")
+    dataset = dataset.assign_attrs(causes.attribute(errors))
+    print(report.table(dataset, trust.width()), *trust.legend(), sep="\n")
+    print(*trust.wrapped(*report.closing_lines(dataset)), *trust.after(scene, dataset, errors), sep="\n")
     written = [*results.write(dataset, folder, maps=maps), report.write_overview(dataset, folder / "overview.png")]
     if maps:
         written.append(track_picture.write(dataset, maps, folder / "track.png"))
@@ -102,8 +129,11 @@ def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path, fie
     return 1 if report.invalid_rows(dataset) else 0
 
 
-def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint", fields: "Fields | None") -> "xr.Dataset":
-    """Build the FMU and drive it, with a progress bar in minutes of test time."""
+def _simulate(
+    scene: Scene, duty: "Duty", checkpoint: "Checkpoint", fields: "Fields | None"
+) -> "tuple[xr.Dataset, Mapping[str, Error]]":
+    """Build the FMU and drive it, with a progress bar in minutes of test time; return the errors at the end, too."""
+    from contact_core import ContactState, uncertainty
     from fmu_src.package.build import build
 
     from ..run.contact import run
@@ -112,4 +142,7 @@ def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint", fields: "Fie
     bar = shown(scene.name, duration, "{n:.1f}/{total:.1f} min", 60.0, since)
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder, bar as progress:
         fmu = build(scene, Path(folder) / f"{scene.name}.fmu", "embedded")
-        return run(fmu, duty, duration, scene.operation.interval, progress, checkpoint, fields)
+        last: list[bytes] = []
+        dataset = run(fmu, duty, duration, scene.operation.interval, progress, checkpoint, fields, last.append)
+    known = last and last[0]  # no state: nothing has been solved
+    return dataset, uncertainty(scene, ContactState.from_bytes(last[0], scene)) if known else {}

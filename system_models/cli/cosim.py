@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from contact_core.errors import ContactError
 
 from .console import add_settings, note, output_folder
+from .overwriting import add_force
 from .simulation import EXIT_CODE, carry_out
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = "FMUs, their connections and options of the simulation"
     parser.add_argument("system", metavar="SYSTEM.toml", type=Path, help=text)
     parser.add_argument("--out", metavar="DIR", help="folder of the results (default: results/SYSTEM)")
+    add_force(parser)
     add_settings(
         parser, "change parameters and settings of the file, e.g. parameters.block.m=2 simulate.step_size='1 ms'"
     )
@@ -51,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
                 f"'{arguments.system}' does not say simulate.{key}. Add it, or --set simulate.{key}=VALUE."
             )
     folder = output_folder(arguments.out, arguments.system.stem)
-    return carry_out(system, settings, arguments.system.stem, folder, arguments.resume, _report)
+    return carry_out(system, settings, arguments.system.stem, folder, arguments.resume, arguments.force, _report)
 
 
 def _export(system: "System", path: str, settings: Mapping[str, Any]) -> int:

@@ -6,6 +6,7 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from .console import note, output_folder, refuse_empty
+from .scenes import tell_assumed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -13,21 +14,23 @@ if TYPE_CHECKING:
     from fmu_src.flavours import Flavour
 
     from ..machines.assembly import Assembly
+    from ..machines.reading import Machine
     from ..master import System
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Carry out the command and return the exit code. Raises ContactError with a sentence if it cannot."""
-    from ..machines import reading, timeline
+    from ..machines import reading, tables, timeline
 
     machine = reading.read(arguments.scene, _changes(arguments))
     if arguments.duty:
         machine.table["duty"] = timeline.with_file(machine.table.get("duty", {}), Path(arguments.duty).absolute())
     assembly = reading.assemble(machine)
+    tell_assumed(tables.scene_and_assumed(machine.table)[1])
     if arguments.ssp:
         return _export(assembly, arguments.ssp, arguments.flavour or "isolated")
     folder = output_folder(arguments.out, machine.name)
-    return _run_in(folder, assembly, machine.kind, arguments)
+    return _run_in(folder, assembly, machine, arguments)
 
 
 def _changes(arguments: argparse.Namespace) -> dict[str, str]:
@@ -54,9 +57,10 @@ def _export(assembly: "Assembly", path: str, flavour: "Flavour") -> int:
     return 0
 
 
-def _run_in(folder: Path, assembly: "Assembly", kind: str, arguments: argparse.Namespace) -> int:
+def _run_in(folder: Path, assembly: "Assembly", machine: "Machine", arguments: argparse.Namespace) -> int:
     import tempfile
 
+    from ..machines.reading import described
     from .simulation import carry_out
 
     unchecked: bool = arguments.unchecked
@@ -67,10 +71,13 @@ def _run_in(folder: Path, assembly: "Assembly", kind: str, arguments: argparse.N
         system = assembly.system(Path(files), flavour, here=True)
 
         def report(dataset: "xr.Dataset", folder: Path) -> int:
-            code = _report(dataset, folder, assembly, kind)
+            dataset = dataset.assign_attrs(described(machine))
+            code = _report(dataset, folder, assembly, machine.kind)
             return code if unchecked else _check(dataset, folder, assembly, system, code)
 
-        return carry_out(system, settings, assembly.name, folder, arguments.resume, report, **attributes)
+        return carry_out(
+            system, settings, assembly.name, folder, arguments.resume, arguments.force, report, **attributes
+        )
 
 
 def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:

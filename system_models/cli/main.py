@@ -13,8 +13,25 @@ from typing import Protocol
 
 from contact_core.errors import ContactError
 
-from . import build, check, cosim, explain, fit, listing, run, stribeck, surfaces, sweep, validate
+from . import (
+    build,
+    check,
+    compare,
+    completion,
+    cosim,
+    explain,
+    fit,
+    listing,
+    new,
+    report,
+    run,
+    stribeck,
+    surfaces,
+    sweep,
+    validate,
+)
 from . import map as mapping
+from .pages import page_of
 
 
 class Command(Protocol):
@@ -30,9 +47,12 @@ class Command(Protocol):
 # name: its module, and its line in the help
 COMMANDS: dict[str, tuple[Command, str]] = {
     "list": (listing, "name the shipped scenes and machines"),
+    "new": (new, "write a commented scene to start from"),
     "explain": (explain, "name the laws of a scene, the sources of its numbers, and what it leaves out"),
     "surfaces": (surfaces, "what a scene's grid shows of its surfaces"),
     "run": (run, "run a scene's contact, or a machine, through its duty"),
+    "report": (report, "show the results of a run as one HTML page"),
+    "compare": (compare, "show runs beside each other, with their error bands, in a table and an HTML page"),
     "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),
     "sweep": (sweep, "run a scene with many values of some of its keys"),
     "fit": (fit, "fit constants of a scene to measured films, friction or wear"),
@@ -41,18 +61,20 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "validate": (validate, "compare answers with measurements, published numbers and closed forms"),
     "check": (check, "give a verdict per rule on any FMU"),
     "cosim": (cosim, "simulate a system of FMUs"),
+    "completion": (completion, "print a script with which a shell completes all this"),
 }
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
-    arguments = _parser().parse_args(argv)
+    parser = _parser()
+    arguments = parser.parse_args(argv, argparse.Namespace(parser=parser))
     try:
         code = int(arguments.command(arguments))
         sys.stdout.flush()  # here, so that a closed pipe is seen here and not at exit
         return code
     except ContactError as error:
-        print(f"tribofmu: {error}", file=sys.stderr)
+        print(f"tribofmu: {error} See {page_of(error, arguments.name)}.", file=sys.stderr)
         return 2
     except KeyboardInterrupt as interrupt:
         print(f"tribofmu: Interrupted. {interrupt}".rstrip(), file=sys.stderr)
@@ -72,7 +94,7 @@ def _parser() -> argparse.ArgumentParser:
     for name, (module, text) in COMMANDS.items():
         command = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
         module.add_arguments(command)
-        command.set_defaults(command=module.run)
+        command.set_defaults(command=module.run, name=name)
     return parser
 
 

@@ -9,7 +9,7 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
 from .console import add_settings, note, output_folder
-from .scenes import refuse_machine, warn
+from .scenes import refuse_machine, tell_assumed, warn
 
 if TYPE_CHECKING:
     from ..run.map_build import Built, Order
@@ -21,22 +21,23 @@ _SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.add_argument("scene", metavar="NAME", help="a shipped scene (`tribofmu list`), or the path of a .toml file")
-    parser.add_argument("--out", metavar="DIR", help="folder of map, knots and report (default: results/NAME)")
+    parser.add_argument("--out", metavar="DIR", help="folder of map, histories and report (default: results/NAME)")
     parser.add_argument(
         "--accuracy",
         metavar="A",
         default="5 %",
-        help="median half width (95 %%) of friction and h_c at which no more knots are solved (default: 5 %%)",
+        help="median half width (95 %%) of friction and h_c at which no more is solved (default: 5 %%)",
     )
     parser.add_argument(
-        "--time", metavar="T", default="30min", help="time after which no more knots are solved (default: %(default)s)"
+        "--time", metavar="T", default="30min", help="time after which no more is solved (default: %(default)s)"
     )
-    executor_arguments(parser, "knots")
+    executor_arguments(parser, "histories")
     for option, text in (
         ("--load", "loads, such as 10:80, in N"),
         ("--entrainment", "entrainment speeds, such as 0.01:1, in m/s"),
         ("--slide-roll", "sliding over entrainment speed, of both directions, such as '1 %%:50 %%'"),
         ("--temperature", "oil temperatures, such as '60 degC:100 degC'"),
+        ("--radius-x", "radii along entrainment of rollers and lines, such as '5 mm:12 mm', alone that of the scene"),
     ):
         parser.add_argument(option, metavar="LOW:HIGH", help=f"{text} (default: about the scene's operation)")
     add_settings(parser, "change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'")
@@ -59,7 +60,8 @@ def run(arguments: argparse.Namespace) -> int:
     from ..store.checkpoint import alone
 
     refuse_machine(arguments.scene)
-    scene = Scene.from_toml(arguments.scene, dict(arguments.settings))
+    scene, assumed = Scene.read(arguments.scene, dict(arguments.settings))
+    tell_assumed(assumed)
     given = {name: text for name in OPTIONS if (text := getattr(arguments, name)) is not None}
     order = map_build.Order(
         scene,
@@ -72,13 +74,13 @@ def run(arguments: argparse.Namespace) -> int:
     folder = output_folder(arguments.out, scene.name)
     warn(scene)
     with alone(folder):
-        built = _built(order, folder / "knots.jsonl")
+        built = _built(order, folder / "histories.jsonl")
         print(*map_report.lines(built), sep="\n")
         written = map_report.write(built, folder)
     print(f"Written: {', '.join(map(str, written))}")
     print(f"A scene uses the map by film.model = 'map' and film.file = '{written[0].resolve()}'.")
     if not built.reached:
-        note("The time was over first. The same command goes on from the knots that are solved.")
+        note("The time was over first. The same command goes on from what is solved.")
     return 0 if built.reached else 1
 
 
@@ -107,12 +109,12 @@ def processes_of(count: int) -> int:
 
 
 def _built(order: "Order", file: Path) -> "Built":
-    """Make the map, with a counter of the knots."""
+    """Make the map, with a counter of the histories."""
     from tqdm import tqdm
 
     from ..run.map_build import build
 
-    bar = tqdm(desc=order.scene.name, bar_format="{desc}: {n} knots{postfix} [{elapsed}]")
+    bar = tqdm(desc=order.scene.name, bar_format="{desc}: {n} histories{postfix} [{elapsed}]")
 
     def show(count: int, halves: tuple[float, ...] | None) -> None:
         if halves is not None:
@@ -124,4 +126,4 @@ def _built(order: "Order", file: Path) -> "Built":
         with bar:
             return build(order, file, show)
     except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"Knots are kept in '{file}': the same command goes on from there.") from None
+        raise KeyboardInterrupt(f"What is solved is kept in '{file}': the same command goes on from there.") from None

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from contact_core.errors import ContactError, StateError
 
+from .alive import alive
 from .console import note
 
 
@@ -32,9 +33,9 @@ def shown(
         total=total / unit,
         initial=since / unit,
         desc=name,
-        bar_format=f"{{desc}} {{percentage:3.0f}} %|{{bar}}| {amount} [{{elapsed}}<{{remaining}}]",
+        bar_format=f"{{desc}} {{percentage:3.0f}} %|{{bar}}| {amount} [{{elapsed}}<{{remaining}}{{postfix}}]",
     )
-    with bar, logging_redirect_tqdm():
+    with bar, logging_redirect_tqdm(), alive(bar):
         yield lambda time: bar.update(time / unit - bar.n)
 
 

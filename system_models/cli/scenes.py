@@ -2,15 +2,17 @@
 
 import argparse
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
 from contact_core.quantities import UNSOLVED
-from contact_core.scene import Scene
+from contact_core.scene import Assumed, Scene, told
 
 from ..machines import files
-from .console import add_settings, refuse_empty
+from .console import add_settings, note, refuse_empty
+from .overwriting import add_force
 
 if TYPE_CHECKING:
     from ..run.duty import Duty
@@ -31,6 +33,7 @@ def add_scene(command: argparse.ArgumentParser, kinds: str) -> None:
         help="error of friction, film and W_c asked for, such as 5%%: replaces control.accuracy, which chooses grid, "
         "blocks and instants; of machines contact.control.accuracy",
     )
+    add_force(command)
     add_settings(command, f"change values of the {kinds}, e.g. tribofilm.model=none surface_2.rq='50 nm'")
 
 
@@ -39,9 +42,30 @@ def contact(arguments: argparse.Namespace) -> "tuple[Scene, Duty]":
     from ..run.duty import Duty
 
     refuse_machine(arguments.scene)
-    scene = Scene.from_toml(arguments.scene, _overrides(arguments))
+    overrides = _overrides(arguments)
+    scene, assumed = Scene.read(arguments.scene, overrides)
     duty = Duty.of_scene(scene, _folder_of_duty(arguments))
+    largest = max(point.load for point in duty.points)
+    if largest > scene.largest_load and any(each.key == "film.domain" for each in assumed):  # a grid for that load
+        scene, assumed = Scene.read(arguments.scene, overrides | {"operation.largest_load": f"{largest!r} N"})
+    _ask_back(scene, arguments.force)
+    tell_assumed(assumed)
     return duty.sized(scene), duty
+
+
+def tell_assumed(assumed: Sequence[Assumed]) -> None:
+    """Say on stderr which values a scene does not give."""
+    if assumed:
+        note(told(assumed))
+
+
+def _ask_back(scene: Scene, force: bool) -> None:
+    """Raise ContactError for numbers that look like mistakes, unless `force`d; then warn."""
+    doubts = scene.doubts()
+    if doubts and not force:
+        raise ContactError(f"{' '.join(doubts)} If this is meant, add --force.")
+    for doubt in doubts:
+        print(f"tribofmu: warning: {doubt}", file=sys.stderr)
 
 
 def refuse_machine(name: str) -> None:

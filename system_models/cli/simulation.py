@@ -7,6 +7,7 @@ from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from .console import note
+from .overwriting import ask_before
 from .progress import continued_by_resume, note_replaced, shown
 
 if TYPE_CHECKING:
@@ -23,20 +24,24 @@ def carry_out(
     name: str,
     folder: Path,
     resume: bool,
+    force: bool,
     report: Callable[["xr.Dataset", Path], int],
     **attributes: str,
 ) -> int:
     """Simulate with a checkpoint in the folder and hand the result to `report`, whose exit code is returned.
 
     With `resume` continue from the checkpoint; if there is none, but the result of this simulation, keep that. The
-    settings are the arguments of `master.simulate`. `report` writes the result with its exit code as the attribute
-    EXIT_CODE; `attributes` are others of it that distinguish it from results of another kind.
+    result of another system is replaced if `force`d. The settings are the arguments of `master.simulate`. `report`
+    writes the result with its exit code as the attribute EXIT_CODE; `attributes` are others of it that distinguish it
+    from results of another kind.
     """
     origin = _origin(system, settings, name) | attributes
     checkpoint = _checkpoint(folder, system, settings, resume)
     continues = resume and checkpoint is not None and checkpoint.exists()
     if resume and not continues and (code := _finished(folder, origin)) is not None:
         return code
+    if not continues:
+        ask_before(folder, origin, force)
     begin = monotonic()
     dataset = _simulated(system, settings, name, checkpoint, continues)
     if not continues:

@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING
 from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
+from .alive import alive
 from .console import output_folder
+from .overwriting import ask_before
 from .scenes import add_scene, contact, warn
 
 if TYPE_CHECKING:
     from ..run.duty import Duty
-    from ..run.stribeck import Curves
+    from ..run.stribeck import Curves, Plan
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -34,11 +36,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--slowest", metavar="U", default="0.003", help="slowest entrainment speed in m/s (default: 0.003)"
     )
     parser.add_argument("--points", metavar="N", type=int, default=12, help="speeds of a sweep (default: %(default)s)")
-    parser.add_argument("--srr", metavar="R", help="slide-to-roll ratio (u1 - u2) / u_e (default: that of the scene)")
+    parser.add_argument(
+        "--srr",
+        metavar="R",
+        help="slide-to-roll ratio (u1 - u2) / u_e, such as 0.1 or '10 %%' (default: that of the scene)",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Measure, print and write the curves; return the exit code."""
+    from ..run.origin import attributes
     from ..run.stribeck import Curves, Plan
     from ..store.checkpoint import alone
 
@@ -49,12 +56,14 @@ def run(arguments: argparse.Namespace) -> int:
         _plain_or_with_unit("--fastest", arguments.fastest, "m/s"),
         _plain_or_with_unit("--slowest", arguments.slowest, "m/s"),
         arguments.points,
-        None if arguments.srr is None else _plain_or_with_unit("--srr", arguments.srr, ""),
+        _slide_roll_ratio(arguments.srr),
     )
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
     warn(scene)
+    _introduce(scene, plan)
     curves = Curves(plan)
     with alone(folder):
+        ask_before(folder, attributes(scene, duty), arguments.force, "stribeck")
         try:
             _sweep(scene, duty, curves)
         except KeyboardInterrupt:
@@ -64,12 +73,34 @@ def run(arguments: argparse.Namespace) -> int:
         return _report_curves(scene, duty, curves, folder)
 
 
+def _introduce(scene: Scene, plan: "Plan") -> None:
+    """Print what the contact is like over the speeds of a sweep, before it is solved."""
+    from ..run import trust
+    from ..run.duty import Duty
+
+    swept = Duty(tuple(map(float, range(len(plan.speeds)))), tuple(map(plan.point, plan.speeds)))
+    print(*trust.wrapped(scene.description), *trust.before(scene, swept), "", sep="\n", flush=True)
+
+
 def _rubbing_times(words: Sequence[str]) -> list[float]:
     """Return minutes, apart from each other by commas or spaces, in seconds."""
     try:
         return [60.0 * float(word) for word in re.split(r"[,\s]+", " ".join(words)) if word]
     except ValueError:
         raise ContactError(f"--times = '{' '.join(words)}' must be numbers of minutes, such as 0,5,30.") from None
+
+
+def _slide_roll_ratio(text: str | None) -> float | None:
+    """Return the ratio of --srr; a plain number above 2, at which a body rests, looks like per cent."""
+    if text is None:
+        return None
+    ratio = _plain_or_with_unit("--srr", text, "")
+    if abs(ratio) > 2.0 and "%" not in text:
+        raise ContactError(
+            f"--srr = {text} is {100.0 * ratio:g} %, and from 200 % on the surfaces move against each other. Write "
+            f"--srr '{text} %' for per cent, or '{100.0 * ratio:g} %' if that is meant."
+        )
+    return ratio
 
 
 def _plain_or_with_unit(option: str, text: str, unit: str) -> float:
@@ -89,7 +120,7 @@ def _sweep(scene: Scene, duty: "Duty", curves: "Curves") -> None:
     bar = tqdm(
         total=len(curves.plan.times) * len(curves.plan.speeds),
         desc=scene.name,
-        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} points [{elapsed}<{remaining}]",
+        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} points [{elapsed}<{remaining}{postfix}]",
     )
 
     def show(stage: str, count: int) -> None:
@@ -97,7 +128,7 @@ def _sweep(scene: Scene, duty: "Duty", curves: "Curves") -> None:
         bar.update(count - bar.n)
         bar.refresh()
 
-    with bar, logging_redirect_tqdm():
+    with bar, logging_redirect_tqdm(), alive(bar):
         measure(scene, duty, curves, show)
 
 
@@ -117,7 +148,7 @@ def _report_curves(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -
     from ..store import results
 
     dataset = curves.dataset(scene, duty)
-    print(scene.description, stribeck_report.table(dataset), sep="\n")
+    print(stribeck_report.table(dataset))
     print(*stribeck_report.shift_lines(dataset), *stribeck_report.closing_lines(dataset), sep="\n")
     written = results.write(dataset, folder, "stribeck")
     written.append(stribeck_report.write_figure(dataset, folder / "stribeck.png"))

@@ -6,7 +6,7 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene
 
 from .console import add_settings
-from .scenes import microroughness, warn
+from .scenes import microroughness, tell_assumed, warn
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -23,7 +23,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise ContactError("--grid is empty. Give a value, or leave --grid out.")
     if arguments.grid:
         settings["film.points"] = arguments.grid
-    scene = Scene.from_toml(arguments.scene, settings)
+    scene, assumed = Scene.read(arguments.scene, settings)
+    tell_assumed(assumed)
     warn(scene)
     print(f"Grid of {scene.film.points} nodes, {1e6 * scene.film.spacing:.3g} um apart")
     surfaces = (scene.surface_1, scene.surface_2)

@@ -14,6 +14,7 @@
 Any contact can be deterministic: `deterministic = ["inner_1"]`.
 """
 
+import json
 import tomllib
 from collections.abc import Mapping
 from dataclasses import replace
@@ -68,6 +69,21 @@ def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
     if kind not in KINDS:
         raise SceneError(f"kind = {kind!r} is not one of {', '.join(KINDS)}.{did_you_mean(str(kind), list(KINDS))}")
     return Machine(path.stem, kind, table, file.parent)
+
+
+ATTRIBUTE = "machine_json"  # of a machine's result
+
+
+def described(machine: Machine) -> dict[str, str]:
+    """Return the machine as an attribute of its result, from which `from_attribute` makes it again."""
+    parts = {**machine._asdict(), "folder": str(machine.folder.absolute())}
+    return {ATTRIBUTE: json.dumps(parts, default=str)}
+
+
+def from_attribute(text: str) -> Machine:
+    """Return the machine of a result."""
+    parts = json.loads(text)
+    return Machine(**{**parts, "folder": Path(parts["folder"])})
 
 
 def _put(table: dict[str, Any], key: str, item: Any) -> None:

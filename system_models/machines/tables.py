@@ -5,7 +5,7 @@ from typing import Any
 
 from contact_core.errors import SceneError
 from contact_core.quantities import out_of_range
-from contact_core.scene import Scene
+from contact_core.scene import Assumed, Scene
 from contact_core.scene.toml import build, flat
 
 
@@ -21,7 +21,12 @@ def record(cls: type, table: Mapping[str, Any], name: str) -> Any:
 
 def scene_of(table: Mapping[str, Any]) -> Scene:
     """Return the scene of the table [contact]: the named scene with the changes of the other keys."""
-    return Scene.from_toml(*contact_of(table))
+    return scene_and_assumed(table)[0]
+
+
+def scene_and_assumed(table: Mapping[str, Any]) -> tuple[Scene, tuple[Assumed, ...]]:
+    """Return the same with the values that neither the scene nor the machine gives."""
+    return Scene.read(*contact_of(table))
 
 
 def contact_of(table: Mapping[str, Any]) -> tuple[str, dict[str, str]]:

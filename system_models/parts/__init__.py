@@ -8,7 +8,8 @@
     timetable     the duty of a machine as a component
     linear        x' = A x + B u over any step; conduction: the same for heat capacities joined by conductances
     build         the FMU of a component; variables: its variables; resources: its files; slave: its runtime
-    native        its C, written from its Python; scalars: what is computed with arrays, for that once more with numbers
+    native        its C, written from its Python; scalars: what functions of libraries compute, for that once more with
+                  bounded loops; eigen: eigenvalues of small symmetric matrices
 
 Components know neither FMI nor one another.
 """

@@ -51,9 +51,8 @@ def _written(part: Part) -> dict[str, str]:
     inputs: dict[str, Any] = {q.name: Num(names[q.name]) for q in part.inputs}
     count = len(part.initial(start_values(part)))
     state: Any = tuple(Num(f"held_{k}") for k in range(count))
-    instead = {**INSTEAD, **part.instead()}
-    begun, first_texts = translated(first, [part, inputs], instead)
-    stepped, step_texts = translated(step, [part, state, inputs, Num("dt")], instead)
+    begun, first_texts = translated(first, [part, inputs], INSTEAD)
+    stepped, step_texts = translated(step, [part, state, inputs, Num("dt")], INSTEAD)
     known = [number.text for number in inputs.values()]
 
     def calls(head: str, entry: Any) -> str:

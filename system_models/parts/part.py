@@ -4,9 +4,9 @@
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from contact_core.quantities import Quantity, Role, parameter
 
@@ -66,11 +66,6 @@ class Part(ABC):
     def at_start(self) -> tuple[str, ...]:
         """Inputs that `initial` looks at, on which the first outputs depend beside those that are direct."""
         return ()
-
-    @classmethod
-    def instead(cls) -> Mapping[Any, Callable[..., Any]]:
-        """Functions of its own, with scalars in place of arrays, by those that they stand for in C, see `native`."""
-        return {}
 
     def check(self) -> None:  # noqa: B027 (few have anything to check)
         """Raise SceneError if parameters do not go together; the range of each is checked by the caller."""

@@ -1,8 +1,9 @@
-"""What components compute with arrays, once more with scalars and bounded loops: to be written in C.
+"""What components compute with functions of scipy and numpy, once more with bounded loops: to be written in C.
 
 `INSTEAD` names the functions that these stand for. They agree to rounding.
 """
 
+import inspect
 import math
 from collections.abc import Callable, Mapping, Sequence
 from itertools import product
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from . import linear, thermal
 from .conduction import Modes
+from .eigen import symmetric_eigen
 from .part import State, Values
 from .thermal import Regimes, ThermalNetwork
 
@@ -222,4 +224,8 @@ def _crossing(
     return high, turn
 
 
-INSTEAD: Mapping[Any, Callable[..., Any]] = {linear.exponential: exponential, ThermalNetwork.advance: advance}
+INSTEAD: Mapping[Any, Callable[..., Any]] = {
+    linear.exponential: exponential,
+    ThermalNetwork.advance: advance,
+    inspect.unwrap(np.linalg.eigh): symmetric_eigen,
+}

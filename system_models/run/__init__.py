@@ -3,14 +3,16 @@
     duty, duty_table              load, speeds and temperature against time: constant, steps, or a CSV
     contact                       a contact's FMU through a duty
     origin                        identity of a contact's run
+    causes                        errors at the end of a contact's run, by their causes
     fields, maps                  maps and profiles of a run at some times: collected, and as variables of its result
     track_picture                 picture of wear tracks and tribofilms
+    trust, flags                  what to trust of a run: lines before and after it; range flags in numbers
     report                        the printed table and the overview picture of a contact's run
     stribeck, stribeck_report     Stribeck curves at given times of rubbing; their table and picture
     fit, fit_data, fit_model      constants of a scene from measured numbers: the fit, the numbers, the model
     fit_estimate, fit_report      least squares and intervals; table, picture and named set
-    map_ranges, map_workers       map of a scene: places of its knots, processes that solve them
-    map_build, map_report         the map, and what held-back knots say of it
+    map_ranges, map_workers       map of a scene: its histories, processes that solve them
+    map_build, map_report         the map, and what held-back histories say of it
     cosim_report                  tables and picture of any simulated system
 
 A contact is a system of one FMU: the master drives it through its duty.

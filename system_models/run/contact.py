@@ -5,7 +5,7 @@ over each communication step, and the outputs at its end are recorded.
 """
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import MISSING
 from dataclasses import fields as fields_of
 from pathlib import Path
@@ -16,9 +16,12 @@ from fmpy.model_description import ModelVariable
 
 from contact_core.errors import ContactError
 from contact_core.scene import OperatingPoint
+from fmu_src.runtime.snapshot import contact_state
 
+from ..fmu.instance import Instance
 from ..fmu.model import Model
 from ..master import System, simulate
+from ..master.simulate import Observer
 from ..store.checkpoint import Checkpoint
 from ..store.results import to_dataset
 from .duty import Duty
@@ -39,6 +42,7 @@ def run(
     progress: Callable[[float], None] | None = None,
     checkpoint: Checkpoint | None = None,
     fields: Fields | None = None,
+    at_end: Callable[[bytes], None] | None = None,
 ) -> xr.Dataset:
     """Drive a `MixedContact` FMU through a duty.
 
@@ -46,7 +50,8 @@ def run(
     the end; the first row is the contact after initialisation. `progress` is called with the time reached.
     A step that the FMU calls invalid is recorded like any other and warned about at the end. The FMU's
     messages go to `logging`. With a `checkpoint` the run continues from its saved point, bit for bit, and saves the
-    points that it reaches; the last point stays until the caller removes it. `fields` keeps maps at some of the rows.
+    points that it reaches; the last point stays until the caller removes it. `fields` keeps maps at some of the rows,
+    `at_end` gets the state of the contact after the last one.
 
     Returns a Dataset along `time` with the inputs and all outputs of the FMU, named and with units as in its
     modelDescription.xml. Raises ContactError if the FMU fails or is not one of a contact, and KeyboardInterrupt also
@@ -67,7 +72,7 @@ def run(
         outputs=[_port(v) for v in recorded],
         checkpoint=checkpoint,
         progress=progress,
-        observe=fields.observe if fields else None,
+        observe=_observer(points[-1], fields, at_end),
     )
     _warn_of_invalid_rows(found)
     return to_dataset(
@@ -77,6 +82,20 @@ def run(
         {v.name: f"{v.description}, held over the step that ends here" for v in inputs}
         | {v.name: v.description or v.name for v in outputs},
     )
+
+
+def _observer(end: float, fields: Fields | None, at_end: Callable[[bytes], None] | None) -> Observer | None:
+    """Return what looks at the contact's FMU at the rows: the fields, and at time `end` [s] what takes its state."""
+    if at_end is None:
+        return fields.observe if fields else None
+
+    def observe(time: float, instances: Mapping[str, Instance]) -> None:
+        if fields:
+            fields.observe(time, instances)
+        if time >= end:
+            at_end(contact_state(instances[_NAME].serialised()))
+
+    return observe
 
 
 def communication_points(duty: Duty, duration: float, interval: float) -> list[float]:

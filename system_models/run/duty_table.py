@@ -76,6 +76,10 @@ def _columns(header: list[str], where: str, signals: Mapping[str, Quantity]) -> 
     columns: list[tuple[str, str]] = []
     for text in header:
         match = _COLUMN.match(text)
+        if not match and ";" in text:
+            raise SceneError(
+                f"{where}: '{text}' has semicolons. Put commas between columns, and a point before decimals."
+            )
         if not match:
             raise SceneError(
                 f"{where}: column '{text}' is not a name with a unit. "

@@ -1,11 +1,16 @@
-"""Makes the map of a scene: knots until it is as accurate as asked for, or the time is over."""
+"""Makes the map of a scene: histories until it is as accurate as asked for, or the time is over.
+
+Most histories are solved on a grid with half as many intervals, at a sixth of the cost; some on the scene's own too,
+which tell what the two differ by.
+"""
 
 import json
 import math
 import time
-from collections.abc import Callable, Generator, Iterator
-from contextlib import closing
+from collections.abc import Callable, Container, Generator, Iterator, Mapping, Sequence
+from contextlib import closing, suppress
 from dataclasses import dataclass, fields, replace
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +19,8 @@ from numpy.typing import NDArray
 
 from contact_core.correction import CORRECTED
 from contact_core.errors import ContactError
-from contact_core.mapped.fitting import FEWEST, Rule, Samples, fitted, widths_at
-from contact_core.mapped.knot import Knot, contact_of, samples_of, solve
+from contact_core.mapped.fitting import Rule, Samples, TooFewError, fitted, widths_at
+from contact_core.mapped.knot import History, coarser, contact_of, samples_of, solve
 from contact_core.mapped.map import Map, digest_of
 from contact_core.mapped.query import here, told
 from contact_core.regression.outputs import half_widths
@@ -26,11 +31,11 @@ from .map_workers import done_by, workers
 
 Array = NDArray[np.float64]
 
-SEED = 1  # of the places of the knots
-_HELD = 5  # every so many knots, one is held back: it judges the map, which knows nothing of it
-_ROUND = 16  # knots after which the map is made anew
+SEED = 1  # of the histories
+_GROUP = 4  # histories on the coarser grid, the first of which is solved on the scene's as well
+_HELD = {True: 4 * _GROUP, False: 5}  # every so many numbers one is held back: with a coarser grid, without one
+_ROUND = 10  # histories after which the map is made anew
 _MOST = 100_000
-_MIXED, _DRY = 0.375, 9  # least instants of a block: mixed ones over the nodes along x, dry ones
 
 
 @dataclass(frozen=True)
@@ -40,14 +45,14 @@ class Order:
     scene: Scene
     ranges: Ranges
     accuracy: float  # median half width of friction and h_c, relative
-    seconds: float  # time for all knots; those of an earlier run do not count
+    seconds: float  # time for all histories; those of an earlier run do not count
     processes: int = 1
     executor: str | None = None
 
 
 @dataclass(frozen=True)
 class Judged:
-    """Held-back knots: deviations from the map, and half widths, [knots, outputs]; as `Samples.off`."""
+    """Held-back knots on the scene's grid: deviations from the map, and half widths, [knots, outputs]; as `Samples`."""
 
     samples: Samples
     raw: Array  # deviations from the regression level
@@ -68,136 +73,142 @@ class Built:
 
     order: Order
     chart: Map
-    knots: tuple[Knot, ...]  # all, by number
+    histories: tuple[History, ...]  # all, in their order
     reached: bool  # False: the time was over first
     halves: tuple[float, ...]  # median half width of each output over the knots, in the units of `Samples.off`
     judged: Judged | None  # None: no knot that counts is held back
 
+    @property
+    def fitted(self) -> list[History]:
+        """Histories that the map is fitted to."""
+        return fit_histories(self.order, self.histories)
 
+    @property
+    def held(self) -> list[History]:
+        """Those that judge it."""
+        return [history for history in self.histories if is_held(self.order, history.number)]
+
+
+Task = tuple[int, bool]  # number of a history, and whether it is on the scene's grid
 Progress = Callable[[int, tuple[float, ...] | None], None]
 
 
-def build(order: Order, file: Path, progress: Progress = lambda knots, halves: None) -> Built:
-    """Return the map of a scene; knots that `file` has are not solved again, new ones are added to it.
+def build(order: Order, file: Path, progress: Progress = lambda histories, halves: None) -> Built:
+    """Return the map of a scene; histories that `file` has are not solved again, new ones are added to it.
 
-    `progress` is called with the number of knots and the half widths reached, None before there are any. Raises
-    ContactError if too few knots can be solved in the time.
+    `progress` is called with the number of histories and the half widths reached, None before there are any. Raises
+    ContactError if too few can be solved in the time.
     """
     known = read(order, file)
     end, checked = time.monotonic() + order.seconds, 0
-    chart: Map | None = None
     halves: tuple[float, ...] | None = None
-    reached = False
+    reached, scene = False, scene_of_histories(order.scene)
     with workers(order.processes, order.executor) as given, file.open("a", encoding="utf-8") as out:
-        todo = (number for number in range(_MOST) if number not in known)
-        tasks = ((scene_of_knots(order.scene), number, *order.ranges.draw(SEED, number)) for number in todo)
-        with closing(_with_none_first(done_by(given, solve, tasks))) as results:
-            for knot in results:
-                if knot is not None:
-                    known[knot.number] = knot
-                    out.write(json.dumps(knot.to_dict()) + "\n")
+        asked = ((scene, *task, order.ranges.draw(SEED, task[0])) for task in tasks(order) if task not in known)
+        with closing(_with_none_first(done_by(given, solve, asked))) as results:
+            for history in results:
+                if history is not None:
+                    known[history.number, history.fine] = history
+                    out.write(json.dumps(history.to_dict()) + "\n")
                     out.flush()
-                whole = _whole(known)
-                if whole >= checked + _ROUND:
-                    checked = whole - whole % _ROUND
-                    first = tuple(known[number] for number in range(checked))
-                    if len(fit_knots(first)) >= FEWEST:
-                        chart = mapped(order, first)
-                        halves = medians(order, chart, first)
+                whole = _whole(order, known)
+                if len(whole) >= checked + _ROUND:
+                    checked = len(whole) - len(whole) % _ROUND
+                    with suppress(TooFewError):
+                        halves = medians(order, mapped(order, whole[:checked]), whole[:checked])
                         reached = max(halves[:2]) <= order.accuracy
                 progress(len(known), halves)
                 if reached or time.monotonic() > end:
                     break
-    used = tuple(known[number] for number in sorted(known) if not reached or number < checked)
+    used = _whole(order, known)[:checked] if reached else tuple(known[task] for task in tasks(order, known))
     chart = mapped(order, used)
     return Built(order, chart, used, reached, medians(order, chart, used), judged(order, chart, used))
 
 
-def _with_none_first(results: Iterator[Knot]) -> Generator[Knot | None]:
+def tasks(order: Order, known: Container[Task] | None = None) -> Iterator[Task]:
+    """Yield what is to be solved, in its order; of `known` ones alone."""
+    two = coarser(order.scene) is not None
+    for number in range(_MOST):
+        for fine in [True] * (not two or number % _GROUP == 0) + [False] * two:
+            if known is None or (number, fine) in known:
+                yield number, fine
+
+
+def _with_none_first(results: Iterator[History]) -> Generator[History | None]:
     """Yield None, then the results: what is known already may do."""
     yield None
     yield from results
 
 
-def _whole(known: dict[int, Knot]) -> int:
-    """Return how many knots there are from number 0 without a gap."""
-    number = 0
-    while number in known:
-        number += 1
-    return number
+def _whole(order: Order, known: Mapping[Task, History]) -> tuple[History, ...]:
+    """Return the histories from the first one on without a gap."""
+    return tuple(known[task] for task in takewhile(known.__contains__, tasks(order)))
 
 
-def scene_of_knots(scene: Scene) -> Scene:
-    """Return the scene that knots are solved with.
-
-    Its tribofilm grows at any temperature of the ranges, so that films differ. Its blocks have more instants: a block
-    settles ten times as long as it is sampled, so that these cost little and leave less scatter.
-    """
+def scene_of_histories(scene: Scene) -> Scene:
+    """Return the scene that histories are solved with: its tribofilm grows at any temperature of the ranges."""
     tribofilm: Any = scene.tribofilm
     if "beyond_fit" in {f.name for f in fields(tribofilm)}:
         tribofilm = replace(tribofilm, beyond_fit="extrapolate")
-    mixed = max(scene.control.mixed_instants, math.ceil(_MIXED * (scene.film.points - 1)))
-    dry = max(scene.control.dry_instants, _DRY)
-    return replace(scene, tribofilm=tribofilm, control=replace(scene.control, mixed_instants=mixed, dry_instants=dry))
+    return replace(scene, tribofilm=tribofilm)
 
 
-def fit_knots(knots: tuple[Knot, ...]) -> list[Knot]:
-    """Return the knots that a map is fitted to."""
-    return [knot for knot in knots if knot.counts and knot.number % _HELD != _HELD - 1]
+def is_held(order: Order, number: int) -> bool:
+    """Return True if a history judges the map, which is fitted without it."""
+    every = _HELD[coarser(order.scene) is not None]
+    return number % every == every - _GROUP
 
 
-def held_knots(knots: tuple[Knot, ...]) -> list[Knot]:
-    """Return the knots that judge it."""
-    return [knot for knot in knots if knot.counts and knot.number % _HELD == _HELD - 1]
+def fit_histories(order: Order, histories: Sequence[History]) -> list[History]:
+    """Return the histories that a map is fitted to."""
+    return [history for history in histories if not is_held(order, history.number)]
 
 
-def mapped(order: Order, knots: tuple[Knot, ...]) -> Map:
-    """Return the map of knots. Raises ContactError for too few."""
-    chosen = fit_knots(knots)
-    if len(chosen) < FEWEST:
-        raise ContactError(
-            f"{len(chosen)} of {len(knots)} knots can be fitted, too few for a map: it takes {FEWEST}. Give more "
-            "--time, or ranges in which the deterministic level converges. What is solved is kept: the same command "
-            "continues."
-        )
-    samples = samples_of(scene_of_knots(order.scene), chosen)
+def mapped(order: Order, histories: Sequence[History]) -> Map:
+    """Return the map of histories. Raises TooFewError for too few."""
+    chosen = fit_histories(order, histories)
+    samples = samples_of(scene_of_histories(order.scene), chosen)
     return fitted(samples, order.scene.name, digest_of(order.scene), order.ranges.rows, Rule())
 
 
-def medians(order: Order, chart: Map, knots: tuple[Knot, ...]) -> tuple[float, ...]:
-    """Return the median half widths of a map alone over its knots."""
-    samples = samples_of(scene_of_knots(order.scene), fit_knots(knots))
+def medians(order: Order, chart: Map, histories: Sequence[History]) -> tuple[float, ...]:
+    """Return the median half widths of a map alone over the knots on the scene's grid."""
+    fine = [history for history in fit_histories(order, histories) if history.fine]
+    samples = samples_of(scene_of_histories(order.scene), fine)
     return tuple(map(float, np.median(widths_at(chart, samples.places), axis=0)))
 
 
-def judged(order: Order, chart: Map, knots: tuple[Knot, ...]) -> Judged | None:
-    """Return what held-back knots say of a map."""
-    held = held_knots(knots)
-    if not held:
+def judged(order: Order, chart: Map, histories: Sequence[History]) -> Judged | None:
+    """Return what held-back histories on the scene's grid say of a map."""
+    held = [history for history in histories if history.fine and is_held(order, history.number)]
+    knots = [knot for history in held for knot in history.knots if knot.counts]
+    if not knots:
         return None
-    scene = scene_of_knots(order.scene)
+    scene = scene_of_histories(order.scene)
     samples = samples_of(scene, held)
-    blocks, trust = np.array([knot.errors for knot in held]), np.empty((len(held), 1))
+    trust, slips = np.empty((len(knots), 1)), np.empty((len(knots), 1))
     off, regression = np.empty_like(samples.off), np.empty_like(samples.off)
-    for row, knot in enumerate(held):
+    for row, knot in enumerate(knots):
         case, contact = contact_of(scene, knot)
         place = here(chart, case, contact)
         friction, film, ratio = told(chart, place, contact.load_ratio)
         off[row] = samples.off[row] - (math.log(friction), math.log(film), ratio - contact.load_ratio)
         stated = half_widths(case, contact)
-        regression[row], trust[row] = [stated[error] for error in CORRECTED.values()], place.trust
-    of_map = trust * widths_at(chart, samples.places) + (1.0 - trust) * regression
-    return Judged(samples, samples.off, off, of_map, blocks, int(np.sum(trust < 1.0)))
+        regression[row] = [stated[error] for error in CORRECTED.values()]
+        trust[row], slips[row] = place.trust, place.trust * place.slides
+    trusted = np.hstack([slips, trust, trust])
+    of_map = trusted * widths_at(chart, samples.places) + (1.0 - trusted) * regression
+    return Judged(samples, samples.off, off, of_map, samples.stated, int(np.sum(trust < 1.0)))
 
 
 def _head(order: Order) -> dict[str, object]:
     return {"map of": digest_of(order.scene), "ranges": [list(row) for row in order.ranges.rows], "seed": SEED}
 
 
-def read(order: Order, file: Path) -> dict[int, Knot]:
-    """Return the knots of a file by number; without one it is begun.
+def read(order: Order, file: Path) -> dict[Task, History]:
+    """Return the histories of a file by what was to be solved; without one it is begun.
 
-    A last line that a kill has cut is left out. Raises ContactError if the knots are of another scene or other ranges.
+    A last line that a kill has cut is left out. Raises ContactError if they are of another scene or other ranges.
     """
     head = json.dumps(_head(order))
     if not file.exists():
@@ -206,10 +217,11 @@ def read(order: Order, file: Path) -> dict[int, Knot]:
     first, *lines = file.read_text("utf-8").split("\n")
     if first != head:
         raise ContactError(
-            f"The knots in '{file}' are of another scene, or of other ranges. Use another --out, or delete the file."
+            f"The histories in '{file}' are of another scene, or of other ranges. Use another --out, or delete the "
+            "file."
         )
     whole = lines[:-1]  # behind the last end of line there is nothing, or what a kill has left
     if lines[-1:] != [""]:
         file.write_text("\n".join([first, *whole]) + "\n", encoding="utf-8")
-    knots = [Knot.from_dict(json.loads(line)) for line in whole]
-    return {knot.number: knot for knot in knots}
+    found = [History.from_dict(json.loads(line)) for line in whole]
+    return {(history.number, history.fine): history for history in found}

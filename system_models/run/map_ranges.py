@@ -2,31 +2,31 @@
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from contact_core.errors import ContactError
+from contact_core.mapped.knot import Plan
 from contact_core.scene import OperatingPoint, Scene, units
 
 Range = tuple[float, float]
 
-_LOADS, _SPEEDS, _SLIPS = (0.2, 2.0), (0.1, 3.0), (0.1, 10.0)  # times those of the scene's operation
-_WARMER = 25.0  # K, either way
+_LOADS, _SPEEDS, _SLIPS = (0.5, 1.5), (0.3, 3.0), (0.2, 5.0)  # times those of the scene's operation
+_WARMER = 15.0  # K, either way
 _SLIDING = 2.0  # sliding over entrainment speed of a body at rest
 _SLIP = 0.05  # of a scene that only rolls
 _HARD = 0.95  # of the hardness: the largest Hertz pressure
-_FRESH = 0.1  # share of the knots on new surfaces
-_EARLY = 3  # power by which times of rubbing come early
-OPTIONS = {"load": "N", "entrainment": "m/s", "slide_roll": "", "temperature": "K"}
-
-
-class Drawn(NamedTuple):
-    """Where a knot lies: its operating point, and that at which its surfaces have rubbed for some time [s]."""
-
-    point: OperatingPoint
-    before: OperatingPoint
-    rubbed: float
+_LOOKS, _ELSEWHERE = 12, 4  # of a history: looks while it rubs, and at other operating points
+_EARLY = 3  # power by which looks come early, when the surfaces change fast
+OPTIONS = {"load": "N", "entrainment": "m/s", "slide_roll": "", "temperature": "K", "radius_x": "m"}
+_SUCH = {
+    "load": "10:80",
+    "entrainment": "0.05:0.5",
+    "slide_roll": "'1 %:50 %'",
+    "temperature": "60degC:100degC",
+    "radius_x": "5mm:12mm",
+}
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,9 @@ class Ranges:
     entrainment: Range  # m/s
     slide_roll: Range  # sliding over entrainment speed
     temperature: Range  # of the oil [K]
-    duration: float  # longest time for which surfaces have rubbed [s]
+    radius_x: Range  # along entrainment [m]
+    duration: float  # time for which surfaces rub [s]
+    operation: OperatingPoint  # of the scene
 
     @staticmethod
     def of(scene: Scene, given: dict[str, str]) -> "Ranges":
@@ -53,7 +55,9 @@ class Ranges:
             (_SPEEDS[0] * speed, _SPEEDS[1] * speed),
             (_SLIPS[0] * (slip or _SLIP), min(_SLIPS[1] * (slip or _SLIP), _SLIDING)),
             (point.temperature - _WARMER, point.temperature + _WARMER),
+            (scene.shape(point).radius_x,) * 2,
             operation.duration,
+            point,
         )
         chosen: dict[str, Any] = {name: _parsed(name, text) for name, text in given.items()}
         found = replace(found, **chosen)
@@ -63,6 +67,11 @@ class Ranges:
                     f"The range of {name} begins at {getattr(found, name)[0]:g}. Give one above zero, such as "
                     f"--{name.replace('_', '-')} LOW:HIGH."
                 )
+        if "radius_x" in chosen and "radius_y" not in scene.geometry.lacks:
+            raise ContactError(
+                f"--radius-x = '{given['radius_x']}': geometry.model = '{scene.geometry.name}' has two radii, and a "
+                "map knows the ellipse of the scene alone. Leave the option out."
+            )
         return found
 
     @property
@@ -70,12 +79,13 @@ class Ranges:
         """Name, lowest and highest value [SI] of each."""
         return tuple((name, *getattr(self, name)) for name in OPTIONS)
 
-    def draw(self, seed: int, number: int) -> Drawn:
-        """Return where a knot lies; the same for the same seed and number."""
+    def draw(self, seed: int, number: int) -> Plan:
+        """Return a history; the same for the same seed and number. Number 0 rubs at the scene's operation."""
         random = np.random.Generator(np.random.Philox(key=[seed, number]))
-        point, before = self._point(random), self._point(random)
-        late = (float(random.random()) - _FRESH) / (1.0 - _FRESH)
-        return Drawn(point, before, self.duration * max(late, 0.0) ** _EARLY)
+        first = self._point(random)
+        times = tuple(self.duration * (k / _LOOKS) ** _EARLY for k in range(1 + _LOOKS))
+        elsewhere = tuple((int(random.integers(1 + _LOOKS)), self._point(random)) for _ in range(_ELSEWHERE))
+        return Plan(first if number else self.operation, times, elsewhere)
 
     def _point(self, random: np.random.Generator) -> OperatingPoint:
         load, speed, slip = (
@@ -84,7 +94,9 @@ class Ranges:
         )
         temperature = float(random.uniform(*self.temperature))
         half = math.copysign(0.5 * slip * speed, 0.5 - float(random.random()))
-        return OperatingPoint(load, speed + half, speed - half, temperature)
+        low, high = self.radius_x
+        radius = float(random.uniform(low, high)) if high > low else self.operation.radius_x
+        return OperatingPoint(load, speed + half, speed - half, temperature, radius_x=radius)
 
 
 def _largest_load(scene: Scene) -> float:
@@ -102,16 +114,19 @@ def _parsed(name: str, text: str) -> Range:
     option = f"--{name.replace('_', '-')}"
     low, colon, high = text.partition(":")
     if not colon:
-        raise ContactError(f"{option} = '{text}' is not LOW:HIGH, such as 10:80.")
-    ends = _number(low, OPTIONS[name], option), _number(high, OPTIONS[name], option)
+        raise ContactError(f"{option} = '{text}' is not LOW:HIGH, such as {_SUCH[name]}.")
+    ends = _number(name, low, option), _number(name, high, option)
     if not ends[0] < ends[1]:
         raise ContactError(f"{option} = '{text}' must begin below its end.")
     return ends
 
 
-def _number(text: str, unit: str, option: str) -> float:
-    """Return a number in SI units; without a unit it is in `unit`."""
+def _number(name: str, text: str, option: str) -> float:
+    """Return a number in SI units; without a unit it is in that of `OPTIONS`, and a temperature needs one."""
     try:
-        return float(text)
+        number = float(text)
     except ValueError:
-        return units.parse(text.strip(), unit, option)
+        return units.parse(text.strip(), OPTIONS[name], option)
+    if name == "temperature":
+        raise ContactError(f"{option}: {text} may be degC or K. Write {text}degC or {text}K, such as {_SUCH[name]}.")
+    return number

@@ -1,34 +1,46 @@
-"""The report of a map: what it says of itself and what held-back knots say of it, as text, page and picture."""
+"""The report of a map: what it says of itself and what held-back histories say of it, as text, page and picture."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contact_core.mapped.map import COORDINATES, OUTPUTS
+from contact_core.scene import OperatingPoint
 
 from .cosim_report import aligned
-from .map_build import Built, fit_knots, held_knots
+from .map_build import Built
+from .map_ranges import OPTIONS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _NAMES = {"friction_coefficient": "friction", "h_c": "h_c", "contact_load_ratio": "W_c (absolute)"}
-_UNITS = {"load": "N", "entrainment": "m/s", "slide_roll": "1", "temperature": "K"}
+_UNITS = OPTIONS | {"slide_roll": "1"}
+_VALUES: dict[str, Callable[[Built, OperatingPoint], float]] = {
+    "load": lambda built, point: point.load,
+    "entrainment": lambda built, point: abs(point.entrainment_speed),
+    "slide_roll": lambda built, point: abs(point.sliding_speed / point.entrainment_speed),
+    "temperature": lambda built, point: point.temperature,
+    "radius_x": lambda built, point: built.order.scene.shape(point).radius_x,
+}
 _BLUE, _RED, _GREY = "#0072B2", "#D55E00", "#777777"  # Okabe and Ito
 
 
 def lines(built: Built) -> list[str]:
     """Return sentences on the knots, and the table of half widths and held-back knots."""
-    fitted, held = fit_knots(built.knots), held_knots(built.knots)
-    refused = sum(bool(knot.refused) for knot in built.knots)
-    unsure = len(built.knots) - len(fitted) - len(held) - refused
-    chart = built.chart
-    beyond = f" ({built.judged.outside} beyond the ranges of the others)" if built.judged is not None else ""
+    histories, chart = built.histories, built.chart
+    knots = [knot for history in histories for knot in history.knots]
+    unsure = sum(not knot.counts for knot in knots)
+    own = sum(history.fine for history in histories)
+    judges = sum(history.fine for history in built.held)
+    beyond = f" ({built.judged.outside} of their knots beyond the ranges of the others)" if built.judged else ""
     why = "the accuracy is reached" if built.reached else "the time was over"
     return [
-        f"{len(built.knots)} knots: {len(fitted)} fitted, {len(held)} held back{beyond}, {refused} refused, {unsure} "
-        f"not converged or at the edge of the grid. No more because {why}.",
+        f"{len(histories)} histories, {own} of them on the scene's own grid, of which {judges} are held back{beyond}; "
+        f"{sum(bool(history.refused) for history in histories)} ended early. {len(knots)} knots, {unsure} of them not "
+        f"converged or at the edge of the grid, {chart.knots} fitted. No more because {why}.",
         f"{1 + len(chart.term)} terms in {', '.join(COORDINATES[k] for k in chart.picked)}; a query costs {chart.cost} "
         f"multiplications and additions; {len(chart.to_text()) / 1024:.0f} kB.",
         *aligned(rows(built), 1),
@@ -77,20 +89,24 @@ def write(built: Built, folder: Path) -> list[Path]:
 
 def _page(built: Built, picture: str) -> str:
     first, second, *_ = lines(built)
-    given = [["range", "lowest", "highest", "unit"]]
-    given += [[key, f"{low:.4g}", f"{high:.4g}", _UNITS[key]] for key, low, high in built.chart.ranges]
+    given = [["range", "asked, lowest", "highest", "of the knots, lowest", "highest", "unit"]]
+    for key, low, high in built.chart.ranges:
+        values = [_VALUES[key](built, knot.point) for history in built.fitted for knot in history.knots if knot.counts]
+        given.append([key, *(f"{x:.4g}" for x in (low, high, min(values), max(values))), _UNITS[key]])
     return "\n".join(
         [
             f"# Map of {built.chart.scene}",
             "",
-            f"{first} Surfaces have rubbed for up to {built.order.ranges.duration:g} s at another operating point.",
+            f"{first} A history rubs for up to {built.order.ranges.duration:g} s at one operating point, the first one "
+            "at that of the scene, and looks at others on its way.",
             "",
             second,
             "",
             *_markdown(given),
             "",
-            "Half widths (95 %) of the map are by knots left out, beyond the scatter that a block states for itself. "
-            "Held-back knots took no part in the map.",
+            "Half widths (95 %) of the map are by histories left out, beyond the scatter that a block states for "
+            "itself: they are those of what a long run averages to. Held-back histories took no part in the map; their "
+            "knots are judged with their own scatter.",
             "",
             *_markdown(rows(built)),
             *(["", f"![held-back knots]({picture})"] if picture else []),

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from contact_core.state import RangeFlag
-
 from ..store.results import ERROR
 
 if TYPE_CHECKING:
@@ -71,8 +69,11 @@ _PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
 )
 
 
-def table(dataset: xr.Dataset) -> str:
-    """Return about ten rows of the run as text, denser early on; all rows if they are few."""
+def table(dataset: xr.Dataset, width: float = math.inf) -> str:
+    """Return about ten rows of the run as text, denser early on; all rows if they are few.
+
+    Columns that do not fit into a line of `width` characters follow below, each time with the time.
+    """
     time = dataset["time"].values
     rows = list(range(len(time)))
     if len(time) > _FEW_ROWS:
@@ -82,9 +83,13 @@ def table(dataset: xr.Dataset) -> str:
         [heading, unit, *_stated(dataset, name, rows, factor, digits)]
         for heading, unit, name, factor, digits in (*_COLUMNS, *_below(dataset))
     ]
-    widths = [max(map(len, column)) for column in columns]
-    padded = [[cell.rjust(width) for cell in column] for column, width in zip(columns, widths, strict=True)]
-    return "\n".join("  ".join(line) for line in zip(*padded, strict=True))
+    padded = [[cell.rjust(max(map(len, column))) for cell in column] for column in columns]
+    parts = [padded[:1]]
+    for column in padded[1:]:
+        if len(parts[-1]) > 1 and sum(len(each[0]) + 2 for each in (*parts[-1], column)) > width + 2:
+            parts.append(padded[:1])
+        parts[-1] = [*parts[-1], column]
+    return "\n\n".join("\n".join("  ".join(line) for line in zip(*part, strict=True)) for part in parts)
 
 
 def _below(dataset: xr.Dataset) -> list[tuple[str, str, str, float, int]]:
@@ -122,11 +127,11 @@ def _apart(minutes: np.ndarray) -> list[str]:
 
 
 def closing_lines(dataset: xr.Dataset) -> list[str]:
-    """Return sentences on load cycles, the pressures that drove the blocks, validity and range flags."""
+    """Return sentences on load cycles, the pressures that drove the blocks, and warm bodies."""
     last = dataset.isel(time=-1)
     first, second = (f"{int(last[f'load_cycles_{body}']):,}".replace(",", " ") for body in (1, 2))
     cycles = f"Load cycles: {first} of body 1, {second} of body 2."
-    return [cycles, *_blocks(last), *_warmth(dataset), _validity(dataset), *_range(dataset)]
+    return [cycles, *_blocks(last), *_warmth(dataset)]
 
 
 def _warmth(dataset: xr.Dataset) -> list[str]:
@@ -158,24 +163,6 @@ def _blocks(last: xr.Dataset) -> list[str]:
 def invalid_rows(dataset: xr.Dataset) -> int:
     """Return the number of rows that the FMU called invalid."""
     return int((~dataset["valid"].values).sum())
-
-
-def _validity(dataset: xr.Dataset) -> str:
-    count, total = invalid_rows(dataset), dataset.sizes["time"]
-    if not count:
-        return f"Validity: all {total} rows are valid."
-    first = float(dataset["time"].values[~dataset["valid"].values][0])
-    return (
-        f"Validity: {count} of {total} rows are INVALID, the first at {first:g} s; "
-        "their outputs stand as they were before."
-    )
-
-
-def _range(dataset: xr.Dataset) -> list[str]:
-    flags, total = dataset["range_flags"].values, dataset.sizes["time"]
-    counts = {flag: int(((flags & flag) > 0).sum()) for flag in RangeFlag}
-    raised = [f"Range, in {n} of {total} rows: {flag.text}." for flag, n in counts.items() if n]
-    return raised or ["Range: nothing to note."]
 
 
 def write_overview(dataset: xr.Dataset, path: Path) -> Path:

@@ -87,12 +87,21 @@ def _verdict(dataset: xr.Dataset) -> list[str]:
 def closing_lines(dataset: xr.Dataset) -> list[str]:
     """Return validity and range, in sentences."""
     invalid, total = invalid_points(dataset), dataset["valid"].size
-    lines = [f"Validity: all {total} points are valid."]
+    lines = [f"All {total} points were computed.{_known(dataset)}"]
     if invalid:
         lines = [f"Validity: {invalid} of {total} points are INVALID.", *dataset.attrs["failures"].splitlines()]
     flags = dataset["range_flags"].values
     counts = {flag: int(((flags & flag) > 0).sum()) for flag in RangeFlag}
     return lines + [f"Range, at {n} of {total} points: {flag.text}." for flag, n in counts.items() if n]
+
+
+def _known(dataset: xr.Dataset) -> str:
+    """Return how well friction is known, from the surest of the points to the least sure one."""
+    friction, half = dataset["friction_coefficient"], dataset.coords.get(f"friction_coefficient{ERROR}")
+    if half is None or not (friction > 0.0).any():
+        return ""
+    relative = 100.0 * (half / friction).where(friction > 0.0)
+    return f" Friction is known to {float(relative.min()):.2g} % at best, to {float(relative.max()):.2g} % at worst."
 
 
 def invalid_points(dataset: xr.Dataset) -> int:

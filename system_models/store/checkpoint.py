@@ -128,6 +128,20 @@ class Checkpoint:
         checkpoint._load()
         return checkpoint
 
+    @staticmethod
+    def read(folder: Path) -> "tuple[Checkpoint, dict[str, Any]] | None":
+        """Return the checkpoint of `folder` and what its run is, as `run` was given; None if there is none.
+
+        Raises StateError if it is damaged.
+        """
+        checkpoint = Checkpoint(folder, {})
+        data = checkpoint._data()
+        if data is None:
+            return None
+        header, state = checkpoint._parsed(data)
+        checkpoint._take(header, state)
+        return checkpoint, header["run"]
+
     def due(self) -> bool:
         """Return True if the last checkpoint is old enough for another."""
         return monotonic() >= self._next
@@ -184,13 +198,18 @@ class Checkpoint:
             self._records.counted(*header["kept"])
         self.count, self._stored = self.count + len(rows), kept
 
-    def _load(self) -> None:
+    def _data(self) -> bytes | None:
         try:
-            data = self.file.read_bytes()
+            return self.file.read_bytes()
         except FileNotFoundError:
-            return
+            return None
         except OSError as error:
             raise StateError(f"The checkpoint '{self.file}' cannot be read: {error.strerror}. {_WAY_OUT}") from None
+
+    def _load(self) -> None:
+        data = self._data()
+        if data is None:
+            return
         header, state = self._parsed(data)
         different = list(_differences(header["run"], self._run))
         if different:
@@ -200,6 +219,10 @@ class Checkpoint:
                 "Give the settings it was made with or another --out, or start from the beginning without --resume, "
                 "which replaces it."
             )
+        self._take(header, state)
+
+    def _take(self, header: Mapping[str, Any], state: bytes) -> None:
+        """Have the rows and records that a header counts, and the state, as `saved`."""
         try:
             data = self._rows.read(header["size"], header["checksum"])
             kept = self._records.read(*header["kept"]) if "kept" in header else b""

@@ -62,6 +62,15 @@ def find(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:
         return None
 
 
+def attributes_of(file: Path) -> dict[str, Any] | None:
+    """Return the attributes of a result's netCDF file; None if there is none, or it was cut."""
+    try:
+        with xr.open_dataset(file, engine="h5netcdf") as dataset:
+            return dict(dataset.attrs)
+    except (OSError, ValueError):
+        return None
+
+
 def write(
     dataset: xr.Dataset,
     folder: Path,

@@ -87,7 +87,7 @@ def test_the_radius_of_a_line_is_an_input(tmp_path):
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"stress.set": "bearing_52100"}, "stress.model = 'none'"),
+        ({"stress.set": "bearing_52100", "stress.layers": "64"}, "Lower stress.layers"),
         ({"film.model": "deterministic"}, "film.model = 'regression'"),
     ],
 )

@@ -42,7 +42,7 @@ def test_outputs_stay_physical_and_between_what_the_map_may_say(
         assert 0.0 <= getattr(out, error) < math.inf
 
 
-@given(logarithmic(5.0, 100.0), logarithmic(0.005, 0.5), st.floats(1.01, 1.5))
+@given(logarithmic(30.0, 75.0), logarithmic(0.04, 0.25), st.floats(1.01, 1.2))
 def test_within_its_ranges_the_film_grows_with_the_speed(scene: Scene, load: float, speed: float, more: float) -> None:
     slow, fast = (_at(scene, load, factor * speed) for factor in (1.0, more))
     assume(not (slow.range_flags | fast.range_flags) & RangeFlag.OUTSIDE_FIT)
@@ -54,18 +54,18 @@ def _at(scene: Scene, load: float, speed: float) -> Outputs:
     return advance(scene, OperatingPoint(load, 1.025 * speed, 0.975 * speed, 353.15), initial_state(scene), 0.0)[1]
 
 
-@given(logarithmic(5.0, 100.0), logarithmic(0.005, 1.0), logarithmic(1e-3, 1.0))
-def test_the_direction_of_sliding_turns_friction_and_nothing_else(
+@given(logarithmic(5.0, 100.0), logarithmic(0.005, 1.0), st.floats(-1.0, 1.0))
+def test_the_direction_of_all_motion_turns_friction_and_nothing_else(
     scene: Scene, load: float, speed: float, slip: float
 ) -> None:
     forth, back = (
         advance(
             scene,
-            OperatingPoint(load, speed * (1.0 + sign * slip), speed * (1.0 - sign * slip), 353.15),
+            OperatingPoint(load, sign * speed * (1.0 + 0.5 * slip), sign * speed * (1.0 - 0.5 * slip), 353.15),
             initial_state(scene),
             0.0,
         )[1]
-        for sign in (0.5, -0.5)
+        for sign in (1.0, -1.0)
     )
     assert forth.friction_force == approx(-back.friction_force, rel=1e-9)
     assert forth.h_c == approx(back.h_c, rel=1e-9)

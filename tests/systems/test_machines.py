@@ -65,6 +65,9 @@ def test_a_machine_runs_from_one_command(rig: list[str], capsys: pytest.CaptureF
         judged, covered = (resolved[f"resolved.{name}"].values.astype(bool) for name in ("solved", "valid"))
     assert (~dataset["contact.valid"].values.astype(bool)).sum() == (~covered).sum()  # false there, and only there
     assert code == int((judged & ~covered).any())
+    again = reading.assemble(reading.from_attribute(dataset.attrs[reading.ATTRIBUTE]))
+    assert list(again.contacts) == ["contact"]
+    assert again.settings["stop_time"] == 9.0
     assert 0.0 < dataset["contact.friction_force"].attrs["error_coupling"] < 0.1
     assert "Error of the coupling, from steps of double size" in out
     assert dataset["ball.surface_speed"].values[-1] == approx(0.1025, rel=1e-3)

@@ -51,9 +51,9 @@ def test_the_example_of_shapes_runs(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_the_scene_of_ones_own_is_a_scene() -> None:
-    table = read_table("mtm_zddp") | tomllib.loads(block("toml", "[surface_1]"))
-    scene = Scene.from_dict(table)
-    assert scene.tribofilm.full_thickness == 150e-9
+    (text,) = re.findall(r"```toml\n(.*?)```", README, re.DOTALL)
+    scene = Scene.from_dict(tomllib.loads(text) | {"name": "mine"})
+    assert scene.hertz(scene.operation.load).pressure_max == approx(1.09e9, rel=0.01)  # 3 W / (2 pi a2)
 
 
 def test_the_duty_is_a_duty(tmp_path: Path, scene: Scene) -> None:

@@ -6,7 +6,6 @@ import pytest
 import xarray as xr
 from comparison import approx
 
-from contact_core import RangeFlag
 from contact_core.quantities import STATED, TABLE
 from system_models.run import report
 from system_models.store.results import to_dataset, with_half_widths
@@ -106,27 +105,6 @@ def test_the_share_of_blocks_is_told(long_run: xr.Dataset) -> None:
         "Pressures that drive tribofilm and wear: dry contact at the measured share of load in 60.0 % of 10 blocks, "
         "mixed lubrication in 30.0 %, dry contact in place of a mixed solution that failed in 10.0 %."
     )
-
-
-def test_range_flags_are_told_in_words_with_their_rows(long_run: xr.Dataset) -> None:
-    long_run["range_flags"][:] = int(RangeFlag.INLET_UNRESOLVED)
-    long_run["range_flags"][:2] = int(RangeFlag.INLET_UNRESOLVED | RangeFlag.FEW_NODES)
-    assert report.closing_lines(long_run)[3:] == [
-        f"Range, in 121 of 121 rows: {RangeFlag.INLET_UNRESOLVED.text}.",
-        f"Range, in 2 of 121 rows: {RangeFlag.FEW_NODES.text}.",
-    ]
-
-
-def test_a_clean_run_says_so(long_run: xr.Dataset) -> None:
-    validity, *ranges = report.closing_lines(long_run)[2:]
-    assert validity == "Validity: all 121 rows are valid."
-    assert ranges == ["Range: nothing to note."]
-
-
-def test_invalid_rows_are_told(long_run: xr.Dataset) -> None:
-    long_run["valid"][[5, 9]] = False
-    assert report.invalid_rows(long_run) == 2
-    assert "2 of 121 rows are INVALID, the first at 300 s" in report.closing_lines(long_run)[2]
 
 
 def test_every_panel_has_a_label_and_a_legend_where_lines_must_be_told_apart(long_run: xr.Dataset) -> None:

@@ -289,7 +289,7 @@ def test_numbers_of_a_lumped_body_are_tunable():
     ("changes", "told"),
     [
         ({"heat.bulk": "oli"}, r"\[heat\.bulk\] has no model 'oli'\. Did you mean 'oil'\?"),
-        ({"heat.bulk": "lumped"}, r"'heat\.bulk\.heat_capacity_1' is missing\. Give it \[J/K\]: C, heat capacity "),
+        ({"heat.bulk": "lumped"}, r"heat\.bulk\.heat_capacity_1 \[J/K\] \(C, heat capacity of body 1\); heat"),
         (
             LUMPED_TABLE | {"heat.bulk.conductance_1": "1 J/K"},
             r"heat\.bulk\.conductance_1 = '1 J/K' has the wrong unit",

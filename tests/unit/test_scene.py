@@ -26,23 +26,30 @@ def test_an_unknown_key_is_refused_with_the_key_that_was_meant():
     assert "radius_x" in sentence  # all choices are named
 
 
+@pytest.mark.parametrize(
+    ("key", "place"),
+    [("load", "[operation]"), ("lubricant.viscosity_40", "[lubricant.viscosity]"), ("rq", "[surface_1]")],
+)
+def test_a_key_in_the_wrong_table_is_refused_with_its_own_one(key, place):
+    assert f"has no key '{key.split('.')[-1]}'. It belongs to {place}" in refusal(**{key: "1 N"})
+
+
 def test_an_unknown_table_is_refused_with_the_table_that_was_meant():
     sentence = refusal(lubricants__set="azam_oil")
     assert "The scene has no key 'lubricants'. Did you mean 'lubricant'?" in sentence
 
 
-@pytest.mark.parametrize("key", ["wear", "geometry"])
-def test_a_missing_table_is_named(key):
+def test_a_missing_table_is_named_by_its_keys():
     table = read_table("mtm_zddp")
-    del table[key]
-    with pytest.raises(SceneError, match=f"'{key}' is missing"):
+    del table["geometry"]
+    with pytest.raises(SceneError, match=r"These 3 values are missing: geometry\.radius_x \[m\] \(combined radius "):
         Scene.from_dict(table)
 
 
 def test_a_missing_key_is_named_with_its_meaning_and_unit():
     table = read_table("mtm_zddp")
-    del table["geometry"]["radius_y"]
-    with pytest.raises(SceneError, match=r"'geometry.radius_y' is missing. Give it \[m\]: combined radius "):
+    del table["geometry"]["radius_x"]
+    with pytest.raises(SceneError, match=r"'geometry.radius_x' is missing. Give it \[m\]: combined radius "):
         Scene.from_dict(table)
 
 

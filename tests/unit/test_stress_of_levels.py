@@ -108,7 +108,7 @@ def test_constant_cycles_add_up_whatever_the_steps() -> None:
     """Palmgren and Miner: damage in proportion to the cycles, to rounding, up to the first that fail."""
     scene = line(BASQUIN)
     case, start = Case.bind(scene, scene.operation.point), means_of(scene, initial_state(scene))
-    harm = fatigue.harm_by(case, evaluate(case, tribofilms_of(start)), None)
+    harm = fatigue.harm_by(case, evaluate(case, tribofilms_of(start)))
     lasts = 1.0 / float(harm.per_cycle.max())
 
     def after(steps: int) -> Classes:
@@ -128,7 +128,7 @@ def test_wear_in_small_steps_brings_damage_up_and_off() -> None:
     """Damage at one depth comes to the surface as the body wears, and is gone once that depth is."""
     scene = line(BASQUIN)
     case, start = Case.bind(scene, scene.operation.point), means_of(scene, initial_state(scene))
-    harm, depths = fatigue.harm_by(case, evaluate(case, tribofilms_of(start)), None), scene.depths
+    harm, depths = fatigue.harm_by(case, evaluate(case, tribofilms_of(start))), scene.depths
     fresh = unharmed_classes(depths.size, 1)
     buried = fresh.damage_1.copy()
     buried[4] = 0.5

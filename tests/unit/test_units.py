@@ -10,7 +10,8 @@ from contact_core.scene import units
     [
         ("1.26 GPa", "Pa", 1.26e9),
         ("8 um", "m", 8e-6),
-        ("8 µm", "m", 8e-6),
+        ("8 \u00b5m", "m", 8e-6),  # the sign for micro
+        ("8 \u03bcm", "m", 8e-6),  # the Greek letter, which looks the same
         ("127nm", "m", 127e-9),
         ("4 mPa s", "Pa s", 4e-3),
         ("4 mPa.s", "Pa s", 4e-3),
@@ -26,6 +27,8 @@ from contact_core.scene import units
         ("46 cSt", "m2/s", 46e-6),
         ("3 um^3/s", "m3/s", 3e-18),
         ("7800 kg/m3", "kg/m3", 7800.0),
+        ("0.87 kg/l", "kg/m3", 870.0),
+        ("0.87 g/ml", "kg/m3", 870.0),
         ("1 J", "N m", 1.0),
         ("0.8 eV", "J", 0.8 * 1.602176634e-19),
         ("65 kJ/mol", "J", 65e3 / 6.02214076e23),  # per molecule
@@ -60,7 +63,13 @@ def test_small_prefixes_lose_no_digit(text, value):
         (10.0, "m", ["no unit", "'1.0 m'"]),
         ("10 rpm", "m/s", ["wrong unit", "m/s"]),
         ("10 parsec", "m", ["'parsec'", "not a unit", "SI"]),
-        ("1,5 m", "m", ["not a unit"]),
+        ("1,5 m", "m", ["a comma", "decimals have a point: write '1.5 m'."]),
+        (",1 kN", "N", ["a comma", "write '0.1 kN'."]),
+        ("1,000 N", "N", ["write '1.000 N'. If it separates thousands, write '1000 N'."]),
+        ("20 nm; 30 nm", "m", ["';'", "one number"]),
+        ("60 C", "K", ["'C' is not a unit", "Did you mean 'degC'?"]),
+        ("2 hours", "s", ["'hours' is not a unit", "Did you mean 'h'?"]),
+        ("46 cst/s", "m2/s", ["'cst' in 'cst/s'", "Did you mean 'cSt'?"]),
         ("90 degF", "K", ["'degF'", "not a unit"]),
         ("90 degC", "Pa", ["temperature", "Pa"]),
         ("fast", "m/s", ["does not start with a number", "'1.0 m/s'"]),

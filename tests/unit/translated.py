@@ -2,14 +2,17 @@
 
 import ctypes
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from fmu_src.native.build import FOLDER, WARNINGS
-from fmu_src.native.program import HEAD
+from fmu_src.native.calls import HEAD, INSIDE, WHOLE
 from fmu_src.native.tables import tables_h
-from fmu_src.native.translate import Num, Translator, leaves, replaced
+from fmu_src.native.translate import Num, Stored, Translator, c_type, declared, leaves, parts
+from fmu_src.native.translate.values import is_dynamic, rebuilt
 
 _HEADER = "typedef struct { char text[512]; } contact_message;\n"
 
@@ -23,17 +26,29 @@ def translated(folder: Path, function: Callable[..., Any], operands: list[Any]) 
     entry = translator.program(function, operands)
     texts = translator.texts([entry])
     given = [number.text for number in entry.takes]
-    numbers = [number for _, number in leaves(entry.result)]
+    every = [number for _, number in leaves(entry.result)]
+    arrays, numbers = entry.arrays, [number for number in every if "[" not in number.kind]
+    given += [array.text for array in arrays]
     call = f"{entry.name}({', '.join([*given, *(['why'] if entry.may_fail else [])])})"
-    found = [f"out[{i}] = found.{number.text};" for i, number in enumerate(numbers)]
+    lines = [f"{declared(c_type(array.kind), array.text)};" for array in arrays]
     if len(numbers) == 1:
-        lines = [f"out[0] = {call};"]
+        lines += [f"const double only = {call};"]
     else:
-        lines = [f"const struct {entry.name} found = {call};", *found] if numbers else [f"{call};"]
+        lines += [f"const struct {entry.name} found = {call};"] if numbers else [f"{call};"]
+    size = 0
+    for number in every:
+        own = int(number.kind[2:-1]) if "[" in number.kind else 1
+        value = "only" if len(numbers) == 1 else f"found.{number.text}"
+        each = f"for (int i = 0; i < {own}; ++i) out[{size} + i] = {number.text}[i];"
+        lines.append(each if "[" in number.kind else f"out[{size}] = {value};")
+        size += own
     count = len(leaves(operands))
     text = "\n\n".join(
         [
             HEAD,
+            "#include <string.h>",
+            WHOLE,
+            INSIDE,
             *texts,
             "\n".join(
                 [
@@ -57,14 +72,25 @@ def translated(folder: Path, function: Callable[..., Any], operands: list[Any]) 
     run = ctypes.CDLL(str(library)).run
 
     def called(*values: float) -> Any:
-        given, out = (ctypes.c_double * count)(*values), (ctypes.c_double * max(len(numbers), 1))()
+        given, out = (ctypes.c_double * count)(*values), (ctypes.c_double * max(size, 1))()
         why = ctypes.create_string_buffer(512)
         run(given, out, why)
         found = iter(out)
-        return why.value.decode() or replaced(entry.result, lambda _: next(found))  # type: ignore[return-value]
+        return why.value.decode() or _filled(entry.result, found)
 
     called.text = "\n\n".join(texts)  # type: ignore[attr-defined]
     return called
+
+
+def _filled(form: Any, found: Iterator[float]) -> Any:
+    """Return a result with the numbers found in place of those at run time; arrays are numpy's."""
+    if isinstance(form, Stored):
+        return np.array([next(found) for _ in range(form.size)]).reshape(form.shape)
+    if isinstance(form, Num):
+        return next(found)
+    if not is_dynamic(form):
+        return form
+    return rebuilt(form, [_filled(item, found) for _, item in parts(form) or ()])
 
 
 def unknown(count: int) -> list[Num]:

@@ -45,6 +45,10 @@ _RISE = (2.0, 1.0)  # largest rise of a fluid pressure in a step, and by how muc
 _TOUCH = 0.95  # gap in floors below which a node becomes solid
 _TRIAL = 1e-6  # largest relative change of a gap, or change of a pressure, of a difference of flows
 _RELEASES = 1  # a contact that returns after so many releases stays: some would change for ever
+# from this step on, if the pressure has last changed by less, nodes that asperities have held and let go twice of late
+# take half of a correction: else some would be held and let go in turn for ever, each time with its neighbours
+_CALM_FROM, _NEAR = 6, 0.05
+_KEPT = 0.8  # weight of a turn in the next step
 _LEAST_SCALE = 1e-3  # rise of the inflow by the own pressure, over that of the oil that moves with the gap
 
 
@@ -140,7 +144,7 @@ class _Film:
         self.rows = slice(1, -1) if problem.wrapped else slice(None)  # that are no images
         self.inner = np.zeros(shape, np.bool_)
         self.inner[1:-1, 1:-1] = True
-        self.releases = np.zeros(shape, np.int64)
+        self.releases, self.turns = np.zeros(shape, np.int64), np.zeros(shape)
         self.response: Array | None = None  # of a single row, by distance
         if problem.wrapped and shape[0] == 3:
             unit = np.zeros(shape)
@@ -152,7 +156,7 @@ class _Film:
 
     def evaluate(self) -> None:
         """Compute gap, contacts, fluid pressure under them, cavity edge and mass balance of the present pressure."""
-        q, before, old = self.problem, self.solid.copy(), self.p.copy()
+        q, before, old, held = self.problem, self.solid.copy(), self.p.copy(), self.held.copy()
         self._pass()
         if self.carried is None:
             rigid = 30.0 * self.half_space.near[0, 0] / q.spacing  # there light pressures do not change the gap
@@ -167,6 +171,7 @@ class _Film:
         self.releases += before & ~self.solid
         sorted_into = self.held, self.rest, self.give, self.gain, self.lack
         sort_nodes(self.p, self.f, self.r, self.h, self.solid, *q.layer, *sorted_into)
+        self.turns = _KEPT * self.turns + (self.held != held)
 
     def _residual(self, solid: Mask, out: Array) -> None:
         """Compute the net inflow of every node that is full and not `solid`."""
@@ -293,8 +298,11 @@ class _Film:
             return None
         return lambda b: np.asarray(lu.solve(b, "T"))
 
-    def advance(self, dp: Array, dh: Array, d_rigid: float) -> tuple[float, float]:
-        """Take as much of a correction as is safe; return the relative change of the pressure and that share."""
+    def advance(self, dp: Array, dh: Array, d_rigid: float, calm: bool) -> tuple[float, float]:
+        """Take as much of a correction as is safe; return the relative change of the pressure and that share.
+
+        `calm`: nodes that keep being sorted anew take half of it; their change counts as if they took all.
+        """
         q, old = self.problem, self.p
         wet = self.inner & ~self.solid & (old > 0.0)
         weight = np.where(wet, old, 0.0)
@@ -304,11 +312,12 @@ class _Film:
         fall = float(np.sqrt((weight * thinner**2).sum() / max(float(weight.sum()), 1e-300))) / _FALL
         rise = float((np.where(wet, np.minimum(dp, q.cap - old), 0.0) / (_RISE[0] + _RISE[1] * old)).max())
         share = 1.0 / max(fall, rise, 1.0)
-        self.p = np.clip(old + share * dp, 0.0, q.cap)
+        part = np.where(self.turns > 1.0, 0.5, 1.0) if calm else np.ones(1)
+        self.p = np.clip(old + share * part * dp, 0.0, q.cap)
         set_edge(self.p, q.edge, q.wrapped)
         self.rigid += share * d_rigid
         self.solid &= self.p > 0.0
-        return float(np.abs(self.p - old)[self.rows].sum()) / q.load, share
+        return float((np.abs(self.p - old) / part)[self.rows].sum()) / q.load, share
 
     def assess(self, n: int, change: float, whole: bool, tolerance: float) -> Solution:
         """Return the present pressure with its convergence.
@@ -354,13 +363,15 @@ def solve_newton(
     The result is finite, or its `pressure_change` is infinite.
     """
     film = _Film(half_space, problem, start)
+    layered = problem.depth > 0.0 and film.response is None  # a single row comes to rest by itself
     film.evaluate()
     found = film.assess(0, np.inf, False, tolerance)
     for n in range(1, iterations + 1):
         correction = film.correction()
         if correction is None or not np.isfinite(correction[0]).all():
             return failed(start, np.zeros_like(film.p), problem.mass_old, n, "no Newton step")
-        change, share = film.advance(*correction)
+        calm = layered and n >= _CALM_FROM and found.pressure_change < _NEAR
+        change, share = film.advance(*correction, calm)
         film.evaluate()
         found = film.assess(n, change, share == 1.0, tolerance)
         if found.converged:

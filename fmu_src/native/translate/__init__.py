@@ -8,22 +8,34 @@
     expressions   expressions of Python
     loops         loops that stay loops
     results       what C functions return
+    constants     known arrays as tables
+    grids         arrays at run time: elements, views, loops over them
+    grid_parts    parts of them: by numbers, slices, places and masks
+    grid_sums     sums, extremes and their places
+    grid_library  what functions and methods of numpy are for them
     arrays        what a law gives for each element of an array
+    rolled        loops in place of what is written out for each node of a sum
+    declarations  variables begin with their first value
     interpreter   statements of Python
     functions     calls, and C functions: one for each way in which a Python function is used
 
 Nothing here knows contacts: `fmu_src.native.program` says what is written.
 """
 
-from .code import wrapped
+from .code import c_type, declared, wrapped
 from .functions import Entry, Translator
-from .values import Num, Untranslatable, is_number, leaves, literal, parts, replaced
+from .grids import Stored
+from .values import Num, Untranslatable, array_kind, is_number, leaves, literal, parts, replaced
 
 __all__ = [
     "Entry",
     "Num",
+    "Stored",
     "Translator",
     "Untranslatable",
+    "array_kind",
+    "c_type",
+    "declared",
     "is_number",
     "leaves",
     "literal",

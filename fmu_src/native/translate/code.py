@@ -13,26 +13,43 @@ _WIDTH = 116
 
 
 def c_type(kind: str) -> str:
-    """Return the C type of a kind of number."""
-    return _CTYPES[kind]
+    """Return the C type of a kind of number; of an array with its size."""
+    return f"{_CTYPES[kind[0]]}{kind[1:]}"
+
+
+def declared(ctype: str, name: str) -> str:
+    """Return a declaration without its end."""
+    base, bracket, size = ctype.partition("[")
+    return f"{base} {name}{bracket}{size}"
+
+
+def set_to(name: str, kind: str, value: str) -> "Put | Call":
+    """Return the statement that gives a variable the value of another, also an array."""
+    if "[" not in kind:
+        return Put(name, value)
+    size = kind[2:-1]
+    return Call(f"memcpy({name}, {value}, {size} * sizeof {name}[0]);", frozenset({name}))
 
 
 @dataclass
 class Let:
-    """A name for a value, or without one a variable that is set later."""
+    """A name for a value, or without one a variable that is set later; of type double[12] an array."""
 
     ctype: str
     name: str
     value: str | None
     may_refuse: bool = False  # a call that has to be made even if nothing reads its result
+    changes: bool = False  # a variable that is set anew later
+    writes: frozenset[str] = frozenset()  # arrays that it sets
 
 
 @dataclass
 class Put:
-    """A new value of a variable."""
+    """A new value of a variable, or of an element of an array."""
 
     name: str
     value: str
+    place: str | None = None
 
 
 @dataclass
@@ -60,6 +77,14 @@ class Do:
 
 
 @dataclass
+class Call:
+    """A call that sets arrays and does nothing else."""
+
+    text: str
+    writes: frozenset[str]
+
+
+@dataclass
 class Give:
     """The end of a function that returns a struct."""
 
@@ -72,7 +97,7 @@ class Give:
         return f"return (struct {self.struct}){{{', '.join(f'.{name} = {value}' for name, value in self.members)}}};"
 
 
-Statement: TypeAlias = Let | Put | If | Loop | Do | Give
+Statement: TypeAlias = Let | Put | If | Loop | Do | Call | Give
 Block: TypeAlias = list[Statement]
 
 
@@ -89,8 +114,10 @@ def used(block: Block) -> set[str]:
             found |= names_in(statement.test) | used(statement.then) | used(statement.otherwise)
         elif isinstance(statement, Loop):
             found |= names_in(statement.head) | used(statement.body)
-        elif isinstance(statement, Do | Give):
+        elif isinstance(statement, Do | Call | Give):
             found |= names_in(statement.text)
+        elif isinstance(statement, Put) and statement.place is not None:
+            found |= names_in(statement.value) | names_in(statement.place) | {statement.name}
         else:
             found |= names_in(statement.value)
     return found
@@ -102,11 +129,13 @@ def pruned(block: Block, live: set[str]) -> Block:
     for statement in reversed(block):
         if isinstance(statement, Let | Put):
             if statement.name not in live:
-                if isinstance(statement, Let) and statement.may_refuse:
+                if isinstance(statement, Let) and (statement.may_refuse or statement.writes & live):
                     live |= names_in(statement.value)
                     kept.append(Do(f"{statement.value};"))
                 continue
             live |= names_in(statement.value)
+            if isinstance(statement, Put):
+                live |= names_in(statement.place)
             kept.append(statement)
         elif isinstance(statement, If):
             before, after = set(live), set(live)
@@ -117,8 +146,13 @@ def pruned(block: Block, live: set[str]) -> Block:
         elif isinstance(statement, Loop):
             live |= _needed(statement.body, live)
             body = pruned(statement.body, live)
-            live |= names_in(statement.head)
-            kept.append(Loop(statement.head, body))
+            if body:
+                live |= names_in(statement.head)
+                kept.append(Loop(statement.head, body))
+        elif isinstance(statement, Call):
+            if statement.writes & live:
+                live |= names_in(statement.text)
+                kept.append(statement)
         else:
             live |= names_in(statement.text)
             kept.append(statement)
@@ -142,10 +176,11 @@ def printed(block: Block, depth: int = 1) -> list[str]:
     for statement in block:
         if isinstance(statement, Let):
             value = "" if statement.value is None else f" = {statement.value}"
-            const = "" if statement.value is None else "const "
-            lines += wrapped(f"{const}{statement.ctype} {statement.name}{value};", depth)
+            const = "" if statement.value is None or statement.changes else "const "
+            lines += wrapped(f"{const}{declared(statement.ctype, statement.name)}{value};", depth)
         elif isinstance(statement, Put):
-            lines += wrapped(f"{statement.name} = {statement.value};", depth)
+            place = "" if statement.place is None else f"[{statement.place}]"
+            lines += wrapped(f"{statement.name}{place} = {statement.value};", depth)
         elif isinstance(statement, If):
             lines += _choice(statement, depth)
         elif isinstance(statement, Loop):

@@ -12,8 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from . import code
+from . import code, grid_library, grid_parts, grids
+from .grids import Derived, Grid, Stored, View
 from .library import ALWAYS, ARRAY_METHODS, HANDLERS, chosen, elementwise
+from .sources import calls, is_compiled, names_set, takers
 from .units import Poison, Text, Unit, Writer
 from .values import Closure, Method, Num, Untranslatable, both, compare, either, is_dynamic, is_number, literal
 
@@ -68,9 +70,11 @@ class Expressions:
     def bind(self, target: ast.expr, value: Any) -> None:
         """Bind names to a value."""
         if isinstance(target, ast.Name):
+            if isinstance(value, np.ndarray) and self._sets(target.id, value):
+                value = grids.copied(self.unit, value, target.id)
             self.names[target.id] = self.unit.named(target.id, value)
         elif isinstance(target, ast.Tuple):
-            items = list(value)
+            items = [self._kept(item) for item in self.listed(value)]
             starred = [i for i, each in enumerate(target.elts) if isinstance(each, ast.Starred)]
             if starred:
                 at, rest = starred[0], len(target.elts) - starred[0] - 1
@@ -80,8 +84,31 @@ class Expressions:
         elif isinstance(target, ast.Subscript) and isinstance(target.value, ast.Name) and self._is_entry(target):
             owner, key = target.value.id, self.value(target.slice)
             self.names[owner] = {**self.lookup(owner), key: self.unit.named(str(key), value)}
+        elif isinstance(target, ast.Subscript) and isinstance(owner := self.value(target.value), Stored | View):
+            grid_parts.put(self.unit, owner, self.value(target.slice), value)
         else:
             raise Untranslatable(f"an assignment to {ast.unparse(target)}: bind a name instead")
+
+    def listed(self, value: Any) -> list[Any]:
+        """Return the items of a value, of an array its elements or rows."""
+        return list(grids.stored(self.unit, value) if isinstance(value, Derived) else value)
+
+    def _kept(self, value: Any) -> Any:
+        """Return a number that the next assignment or call does not change."""
+        if isinstance(value, Num) and self.unit.may_change(value.text):
+            return self.unit.let("value", value)
+        return value
+
+    def _sets(self, name: str, array: np.ndarray) -> bool:
+        """Return True if a function may set elements of an array by this name."""
+        if array.ndim == 0:
+            return False
+        return is_compiled(self.closure.node) or name in names_set(self.closure.node) or self._is_handed_over(name)
+
+    def _is_handed_over(self, name: str) -> bool:
+        """Return True if a compiled function gets an array by this name: it may set elements."""
+        seen = self.closure.names | self.closure.module
+        return any(hasattr(seen.get(function), "py_func") for function in takers(self.closure.node, name))
 
     def _is_entry(self, target: ast.Subscript) -> bool:
         return isinstance(self.value(target.value), dict) and not is_dynamic(self.value(target.slice))
@@ -146,11 +173,12 @@ class Expressions:
 
     def _items(self, nodes: list[ast.expr]) -> list[Any]:
         found: list[Any] = []
-        for each in nodes:
+        for i, each in enumerate(nodes):
             if isinstance(each, ast.Starred):
                 found.extend(self.value(each.value))
             else:
-                found.append(self.value(each))
+                value = self.value(each)
+                found.append(self._kept(value) if any(map(calls, nodes[i + 1 :])) else value)
         return found
 
     def _of_Dict(self, node: ast.Dict) -> Any:
@@ -163,10 +191,17 @@ class Expressions:
         return self.translator.attribute(self.unit, self.value(node.value), node.attr)
 
     def _of_Subscript(self, node: ast.Subscript) -> Any:
-        index = self.value(node.slice)
-        if is_dynamic(index):
-            raise Untranslatable(f"{ast.unparse(node)}: a place that is known at run time only")
-        return self.value(node.value)[index]
+        return self.picked(self.value(node.value), self.value(node.slice))
+
+    def picked(self, owner: Any, key: Any) -> Any:
+        """Return a part of an array or a sequence, or an entry."""
+        if isinstance(owner, Grid):
+            return grid_parts.picked(self.unit, owner, key)
+        if not is_dynamic(key):
+            return owner[key]
+        if isinstance(owner, np.ndarray) or (isinstance(owner, tuple | list) and all(map(is_number, owner))):
+            return grid_parts.picked(self.unit, grids.of(self.unit, owner), key)
+        raise Untranslatable(f"a place of a {type(owner).__name__} that is known at run time only")
 
     def _of_Slice(self, node: ast.Slice) -> Any:
         return slice(*(None if part is None else self.value(part) for part in (node.lower, node.upper, node.step)))
@@ -175,6 +210,10 @@ class Expressions:
         if isinstance(node.op, ast.Not):
             return self.test(node)
         value = self.value(node.operand)
+        if isinstance(value, Grid):
+            if isinstance(node.op, ast.Invert):
+                return grid_library.inverted(self.unit, value)
+            return grid_library.operated(self.unit, operator.neg, value) if isinstance(node.op, ast.USub) else value
         if isinstance(node.op, ast.Invert) and isinstance(value, np.ndarray) and is_dynamic(value):
             return elementwise(operator.invert)(value)
         if isinstance(node.op, ast.Invert):
@@ -182,13 +221,18 @@ class Expressions:
         return -value if isinstance(node.op, ast.USub) else +value
 
     def _of_BinOp(self, node: ast.BinOp) -> Any:
-        return self.operated(node.op, self.value(node.left), self.value(node.right))
+        left = self.value(node.left)
+        return self.operated(node.op, self._kept(left) if calls(node.right) else left, self.value(node.right))
 
     def operated(self, op: ast.operator, one: Any, other: Any) -> Any:
         """Return one value, an operator and another."""
         function = _OPERATORS.get(type(op))
         if function is None:
             raise Untranslatable(f"no operator {type(op).__name__} here")
+        if grid_library.takes([one, other], function):
+            return grid_library.operated(self.unit, function, one, other)
+        if not is_dynamic([one, other]):
+            return function(one, other)
         if isinstance(op, ast.BitOr | ast.BitAnd | ast.Pow) and isinstance(one, np.ndarray | Num):
             function = elementwise(function)
         return function(one, other)
@@ -231,6 +275,8 @@ class Expressions:
             return alike if isinstance(op, ast.Eq) else (~alike if isinstance(alike, Num) else not alike)
         if not (is_dynamic(one) or is_dynamic(other)):
             return known(one, other)
+        if grid_library.takes([one, other]):
+            return grid_library.compared(self.unit, sign, one, other)
         if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
             return elementwise(lambda x, y: compare(sign, x, y))(one, other)
         if not (is_number(one) and is_number(other)):
@@ -265,8 +311,8 @@ class Expressions:
         test = self.test(node.test)
         if not isinstance(test, Num):
             return self.value(node.body if test else node.orelse)
-        one, then = self.unit.branch(lambda: self.value(node.body))
-        other, otherwise = self.unit.branch(lambda: self.value(node.orelse))
+        one, then = self.unit.branch(lambda: grids.settled(self.unit, self.value(node.body)))
+        other, otherwise = self.unit.branch(lambda: grids.settled(self.unit, self.value(node.orelse)))
         if not then and not otherwise and is_number(one) and is_number(other):
             return chosen(test, one, other)
         found = self.unit.joined("chosen", one, other, then, otherwise)
@@ -310,7 +356,7 @@ class Expressions:
                 found.append(give())
                 return
             part = node.generators[depth]
-            for item in list(self.value(part.iter)):
+            for item in self.listed(self.value(part.iter)):
                 self.bind(part.target, item)
                 if all(self.test(test) for test in part.ifs):
                     level(depth + 1)
@@ -340,6 +386,10 @@ class Expressions:
         if isinstance(node.func, ast.Attribute):
             owner = self.value(node.func.value)
             method = ARRAY_METHODS.get(node.func.attr)
+            if isinstance(owner, np.ndarray) and is_dynamic(owner) and node.func.attr in grid_library.OF_GRIDS:
+                owner = grids.of(self.unit, owner)
+            if isinstance(owner, Grid):
+                return grid_library.method(self.unit, owner, node.func.attr, operands, named)
             if method and (isinstance(owner, np.ndarray) and is_dynamic(owner)):
                 return method(owner, *operands, **named)
             function = self.translator.attribute(self.unit, owner, node.func.attr)
@@ -348,6 +398,9 @@ class Expressions:
         return self._call(function, operands, named)
 
     def _call(self, function: Any, operands: list[Any], named: dict[str, Any]) -> Any:
+        found = grid_library.called(self.unit, function, operands, named)
+        if found is not NotImplemented:
+            return found
         handler = HANDLERS.get(function) if function.__hash__ else None
         if handler is not None and (is_dynamic(operands) or is_dynamic(named) or function in ALWAYS):
             return handler(*operands, **named)
@@ -360,6 +413,8 @@ class Expressions:
         if isinstance(function, types.MethodType) and not is_dynamic(function.__self__):
             if function.__name__ == "_replace":
                 return function(*operands, **named)
+            if function.__func__ in HANDLERS:
+                return HANDLERS[function.__func__](function.__self__, *operands, **named)
             return self.translator.call(self.unit, function.__func__, [function.__self__, *operands], named)  # type: ignore[arg-type]
         if hasattr(function, "__wrapped__"):
             function = inspect.unwrap(function)

@@ -5,15 +5,17 @@ import functools
 import inspect
 import re
 import types
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from . import code
+from . import code, constants, grid_library, grids
 from .arrays import arrays_in, on_arrays
+from .declarations import declared
 from .expressions import Super
+from .grids import is_array
 from .interpreter import Scope
 from .results import (
     distinct,
@@ -23,17 +25,19 @@ from .results import (
     given_places,
     handed_on,
     holes_in,
+    parameter_of,
     part_names,
     wanted_fields,
     with_alike,
     with_given,
 )
-from .sources import about, closure_of, expression_of, is_straight, method_after, statements_of
+from .rolled import rolled
+from .sources import about, closure_of, expression_of, is_compiled, is_straight, method_after, statements_of
 from .units import Text, Unit, matched, template_of, unique
 from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
 
 _COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
-_CORE, _LAWS = "contact_core.", "contact_core.laws."
+_CORE, _LAWS, _OF_LAYERS = "contact_core.", "contact_core.laws.", "contact_core.laws.stress"
 _PARTS = "system_models."
 _UNREAD = "unread_"  # stands, with a number, for a member that nothing reads in the end
 
@@ -48,6 +52,7 @@ class CFunction:
     fields: list[str]  # members of the struct that it returns; one or none: no struct
     may_fail: bool
     forward: list[int | str] | None = None  # a function that only hands on: places of its numbers, or constants
+    writes: frozenset[int] = frozenset()  # which of them are arrays that it sets
 
 
 @dataclass
@@ -61,8 +66,13 @@ class Entry:
 
     @property
     def returns(self) -> int:
-        """How many numbers it returns; one is no struct."""
-        return len(list(leaves(self.result))) if self.name else 0
+        """How many numbers it returns beside arrays; one is no struct."""
+        return sum(1 for _, number in leaves(self.result) if "[" not in number.kind) if self.name else 0
+
+    @property
+    def arrays(self) -> list[Num]:
+        """Arrays that it sets."""
+        return [number for _, number in leaves(self.result) if "[" in number.kind] if self.name else []
 
     @staticmethod
     def place(number: Num, inputs: Sequence[str], constants: Collection[str] = ()) -> str:
@@ -74,7 +84,8 @@ class Entry:
     def called(self, inputs: Sequence[str], constants: Collection[str] = ()) -> str:
         """Return the call, with inputs and state from structs `in` and `state`."""
         given = [self.place(number, inputs, constants) for number in self.takes]
-        return f"{self.name}({', '.join([*given, *(['why'] if self.may_fail else [])])})"
+        own = [number.text for number in self.arrays]
+        return f"{self.name}({', '.join([*given, *own, *(['why'] if self.may_fail else [])])})"
 
 
 class Translator:
@@ -108,7 +119,7 @@ class Translator:
         if found.forward is not None:
             return Entry("", [], filled(found.template, _handed_on(found.forward, given)), False)
         members = [Num(field, hole.kind) for field, hole in zip(found.fields, holes_in(found.template), strict=True)]
-        return Entry(found.name, takes, filled(found.template, members), found.may_fail)
+        return Entry(found.name, takes, with_alike(filled(found.template, members)), found.may_fail)
 
     def texts(self, entries: Sequence["Entry"]) -> list[str]:
         """Return the C functions and structs that entries need, each after those that it uses."""
@@ -117,7 +128,7 @@ class Translator:
             if name in needed:
                 needed |= code.names_in(_COMMENT.sub("", text))
                 kept.append((name, text))
-        return code.merged(kept[::-1])
+        return constants.with_tables(code.merged(kept[::-1]))
 
     def wanted(self, texts: Sequence[str], entries: Sequence["Entry"]) -> dict[Any, set[str]]:
         """Return the members that anything reads of the structs of functions, by what these are; of entries all."""
@@ -144,7 +155,7 @@ class Translator:
 
         def marked(hole: Num) -> Num:
             field = next(fields)
-            if hole.text or field in self._reads[key]:
+            if hole.text or "[" in hole.kind or field in self._reads[key]:
                 return hole
             self._unread.append((key, field))
             return Num(f"{_UNREAD}{len(self._unread) - 1}", hole.kind)
@@ -157,6 +168,8 @@ class Translator:
         """Return a member of a value; properties are computed."""
         if isinstance(owner, Num):
             raise Untranslatable(f"'{owner.text}'.{name}: a number has no members here")
+        if isinstance(owner, grids.Grid):
+            return grid_library.attribute(unit, owner, name)
         if isinstance(owner, Super):
             return types.MethodType(method_after(owner.cls, type(owner.owner), name), owner.owner)
         if not is_dynamic(owner) or isinstance(owner, dict | list | np.ndarray):
@@ -182,17 +195,19 @@ class Translator:
         if isinstance(function, Closure):
             closure = function
         else:
-            function = self._instead.get(function, function)
+            function = _bare(self._instead.get(function, function))
             if not is_dynamic(operands) and not is_dynamic(named):
                 return function(*operands, **named)
             closure = closure_of(function)
-            if any(map(is_dynamic, arrays_in([*operands, *named.values()]))) and _is_elementwise(function):
+            of_arrays = any(map(is_dynamic, arrays_in([*operands, *named.values()])))
+            if of_arrays and _is_elementwise(function) and not is_compiled(closure.node):
                 return self._on_arrays(unit, function, operands, named)
         bound = self._bound(closure, function, operands, named)
-        expression = expression_of(closure.node)
+        expression = None if is_compiled(closure.node) else expression_of(closure.node)
         if expression is not None:
             names = {name: unit.named(name, value) for name, value in bound.items()}
             return Scope(self, unit, names, closure).value(expression)
+        bound = {name: grids.settled(unit, value, name) for name, value in bound.items()}
         found = self._function(closure, bound)
         return self._called(unit, found, distinct((bound, closure)))
 
@@ -200,6 +215,7 @@ class Translator:
         """Return what a law gives for each element of arrays."""
         own, names, closure = len(operands), list(named), closure_of(function)
         straight = is_straight(closure.node)
+        operands = [grids.settled(unit, each, closure.name, cheap=False) for each in operands]
 
         def one(*each: Any) -> Any:
             operands, named = list(each[:own]), dict(zip(names, each[own:], strict=True))
@@ -233,32 +249,47 @@ class Translator:
         if found.forward is not None:
             return filled(template, _handed_on(found.forward, given))
         texts = [number.text for number, used in zip(given, found.used, strict=True) if used]
+        arrays = {
+            field: unit.variable(field, hole.kind)
+            for field, hole in zip(found.fields, holes_in(template), strict=True)
+            if "[" in hole.kind
+        }
+        writes = {grids.base_of(given[place]) for place in found.writes} | {array.text for array in arrays.values()}
+        for name in writes:
+            unit.writes(name)
+        texts += [array.text for array in arrays.values()]
         if found.may_fail:
             texts.append("why")
-        call = f"{found.name}({', '.join(texts)})"
-        holes = holes_in(template)
-        if not holes:
+        result = self._result(unit, found, f"{found.name}({', '.join(texts)})", template, frozenset(writes))
+        if found.may_fail:
+            self._checked(unit)
+        return filled(template, [arrays[field] if field in arrays else result(field) for field in found.fields])
+
+    def _result(
+        self, unit: Unit, found: CFunction, call: str, template: Any, writes: frozenset[str]
+    ) -> Callable[[str], Num]:
+        """Write a call; return the numbers that it gives, by the names of members."""
+        holes = {field: hole for field, hole in zip(found.fields, holes_in(template), strict=True)}
+        kinds = {field: hole.kind for field, hole in holes.items() if "[" not in hole.kind}
+        if not kinds:
             if found.may_fail:
                 unit.emit(code.Do(f"{call};"))
-                self._checked(unit)
-            return template
-        if len(holes) == 1:
-            result = Num(call, holes[0].kind)
-            if found.may_fail:
-                name = unit.fresh(found.name)
-                unit.emit(code.Let(code.c_type(result.kind), name, call, may_refuse=True))
-                result = Num(name, result.kind)
-                self._checked(unit)
-            return filled(template, [result])
-        struct = unit.known(call)
+            elif writes:
+                unit.emit(code.Call(f"{call};", writes))
+            return lambda _: Num("")
+        if len(kinds) == 1:
+            (kind,) = kinds.values()
+            if not (found.may_fail or writes):
+                return lambda _: Num(call, kind)
+            name = unit.fresh(found.name)
+            unit.emit(code.Let(code.c_type(kind), name, call, found.may_fail, writes=writes))
+            return lambda _: Num(name, kind)
+        struct = None if writes else unit.known(call)
         if struct is None:
             struct = unit.fresh(f"of_{found.name}")
             unit.keep(call, struct)
-            unit.emit(code.Let(f"struct {found.name}", struct, call, found.may_fail))
-            if found.may_fail:
-                self._checked(unit)
-        members = [Num(f"{struct}.{field}", hole.kind) for field, hole in zip(found.fields, holes, strict=True)]
-        return filled(template, members)
+            unit.emit(code.Let(f"struct {found.name}", struct, call, found.may_fail, writes=writes))
+        return lambda field: Num(f"{struct}.{field}", kinds[field])
 
     def _checked(self, unit: Unit) -> None:
         """Leave the function if the one called has refused."""
@@ -266,26 +297,28 @@ class Translator:
         unit.emit(code.If("why->text[0] != '\\0'", [code.Do(self._nothing(unit))]))
 
     def _nothing(self, unit: Unit) -> str:
-        holes = holes_in(unit.template)
+        holes = [hole for hole in holes_in(unit.template) if "[" not in hole.kind]
         if not holes:
             return "return;"
         return "return 0;" if len(holes) == 1 else f"return (struct {unit.name}){{0}};"
 
     def gives(self, unit: Unit, value: Any) -> None:
         """Return a value from the function of a unit."""
-        unit.returned.append(value)
+        unit.returned.append(grids.settled(unit, value, "found") if unit.scratch else value)
         if unit.scratch:
             return
         wanted = [not number.text for _, number in leaves(unit.template)]
         numbers = [each for each, want in zip(matched(value, unit.template), wanted, strict=True) if want]
-        if not numbers:
+        fields = wanted_fields(unit.template, unit.part_names)
+        members = [(field, number) for field, number in zip(fields, numbers, strict=True) if not is_array(number)]
+        for out, number in zip(unit.outs, filter(is_array, numbers), strict=True):
+            grids.give(unit, out, number)
+        if not members:
             unit.emit(code.Do("return;"))
-        elif len(numbers) == 1:
-            unit.emit(code.Do(f"return {numbers[0].text};"))
+        elif len(members) == 1:
+            unit.emit(code.Do(f"return {members[0][1].text};"))
         else:
-            fields = wanted_fields(unit.template, unit.part_names)
-            members = [(field, number.text) for field, number in zip(fields, numbers, strict=True)]
-            unit.emit(code.Give(unit.name, members))
+            unit.emit(code.Give(unit.name, [(field, number.text) for field, number in members]))
 
     def refuses(self, unit: Unit, text: Text) -> None:
         """Leave the function of a unit with a message."""
@@ -314,8 +347,9 @@ class Translator:
             if not first.returned:
                 raise Untranslatable(f"{closure.path} always refuses")
             template = template_of(first.returned)
-            if hands_on:
-                template = handed_on(template, first.returned, parameters)
+            marked = handed_on(template, first.returned, parameters if hands_on else [])
+            if hands_on or len(holes_in(marked)) > 1:
+                template = marked
             self._cache[key] = self._finished(name, closure, bound, template)
         return self._cache[key]
 
@@ -331,6 +365,7 @@ class Translator:
         """Return a function of which the statements are written."""
         unit = Unit(name, template, part_names(closure.node), scratch=template is None)
         unit.names |= self._names
+        unit.compiled = is_compiled(closure.node)
         self._units.append(unit)
         made: list[Num] = [] if parameters is None else parameters
         names = iter([leaf for leaf, _ in leaves((bound, closure))])
@@ -341,9 +376,15 @@ class Translator:
             if number.text not in known:  # what is given twice is one parameter
                 known[number.text] = Num(unit.fresh(name), number.kind)
                 made.append(known[number.text])
+                if "[" in number.kind:
+                    unit.arrays.add(made[-1].text)
             return known[number.text]
 
         own, seen = replaced((bound, closure), parameter)
+        if template is not None:
+            named = zip(wanted_fields(template, unit.part_names), holes_in(template), strict=True)
+            unit.outs = [unit.fresh(name) for name, hole in named if "[" in hole.kind]
+            unit.arrays |= {*unit.outs}
         scope = Scope(self, unit, dict(own), seen)
         if scope.run(closure.node.body):
             self.gives(unit, None)
@@ -355,19 +396,24 @@ class Translator:
         template = self._wanted(name, template, part_names(closure.node))
         holder = template if template is not None else ()
         unit = self._written(name, closure, bound, holder, parameters)
-        holes, fields = holes_in(holder), wanted_fields(holder, unit.part_names)
-        if not holes and not unit.may_fail:
+        every, all_fields = holes_in(holder), wanted_fields(holder, unit.part_names)
+        arrays, holes = ([h for h in every if ("[" in h.kind) is array] for array in (True, False))
+        fields = [field for field, hole in zip(all_fields, every, strict=True) if "[" not in hole.kind]
+        sets = frozenset(i for i, parameter in enumerate(parameters) if parameter.text in unit.written)
+        if not every and not unit.may_fail and not sets:
             return CFunction(name, [False] * len(parameters), template, [], False)
-        if not unit.may_fail and not unit.blocks[0][:-1]:
+        if not unit.may_fail and not unit.outs and not sets and not unit.blocks[0][:-1]:
             forward = forwarded(unit, holder, parameters)
             if forward is not None:
                 return CFunction(name, [False] * len(parameters), template, fields, False, forward)
-        block = code.pruned(unit.blocks[0], set())
+        block = code.pruned(unit.blocks[0], {*unit.outs, *(parameters[i].text for i in sets)})
+        block = declared(rolled(unit, block))
         if not holes and block and isinstance(block[-1], code.Do) and block[-1].text == "return;":
             block.pop()
         names = code.used(block)
         used = [number.text in names for number in parameters]
-        given = [f"{code.c_type(p.kind)} {p.text}" for p, each in zip(parameters, used, strict=True) if each]
+        given = [parameter_of(p, p.text in unit.written) for p, each in zip(parameters, used, strict=True) if each]
+        given += [parameter_of(Num(out, hole.kind), True) for out, hole in zip(unit.outs, arrays, strict=True)]
         if unit.may_fail:
             given.append("contact_message *why")
         if not holes:
@@ -379,14 +425,19 @@ class Translator:
             members = [f"    {code.c_type(h.kind)} {f};" for f, h in zip(fields, holes, strict=True)]
             self.functions.append((name, "\n".join([f"struct {name} {{", *members, "};"])))
         head = code.head(result, name, given)
-        lines = [*code.comment(about(closure)), *head, "{", *code.printed(block), "}"]
-        self.functions.append((name, "\n".join(lines)))
-        return CFunction(name, used, template, fields, unit.may_fail)
+        self.functions.append((name, "\n".join([*code.comment(about(closure)), *head, "{", *code.printed(block), "}"])))
+        return CFunction(name, used, template, all_fields, unit.may_fail, None, sets)
+
+
+def _bare(function: Any) -> types.FunctionType:
+    """Return a function without its wrappers, such as that of the compiler."""
+    return inspect.unwrap(function)
 
 
 def _is_elementwise(function: types.FunctionType) -> bool:
     """Return True for functions of laws, also a user's own: what they say of a number they say of each of an array."""
-    return function.__module__.startswith(_LAWS) or not function.__module__.startswith((_CORE, _PARTS))
+    module = function.__module__
+    return (module.startswith(_LAWS) and module != _OF_LAYERS) or not module.startswith((_CORE, _PARTS))
 
 
 def _handed_on(forward: Sequence[int | str], given: Sequence[Num]) -> list[Num]:

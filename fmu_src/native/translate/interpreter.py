@@ -1,11 +1,17 @@
 """Statements of Python, in one scope: an interpreter that computes what is known and writes C for what is not."""
 
 import ast
+import importlib
 from typing import Any
 
-from . import code
+import numpy as np
+
+from . import code, grids
 from .expressions import Expressions
+from .grids import Stored, View
+from .library import Span
 from .loops import counted, repeated
+from .sources import is_compiled
 from .units import Poison, Text
 from .values import Num, Untranslatable
 
@@ -75,9 +81,14 @@ class Scope(Expressions):
         return True
 
     def _do_AugAssign(self, node: ast.AugAssign) -> bool:
-        assert isinstance(node.target, ast.Name)
-        now = self.lookup(node.target.id)
-        self.bind(node.target, self.operated(node.op, now, self.value(node.value)))
+        now = self.value(_loaded(node.target))
+        after = self.operated(node.op, now, self.value(node.value))
+        if isinstance(now, np.ndarray) and is_compiled(self.closure.node):
+            raise Untranslatable("it changes an array of a caller that has no place in C: give that a name there")
+        if isinstance(now, Stored | View):  # in place
+            grids.fill(self.unit, now, after)
+        else:
+            self.bind(node.target, after)
         return True
 
     def _do_Return(self, node: ast.Return) -> bool:
@@ -92,6 +103,11 @@ class Scope(Expressions):
 
     def _do_FunctionDef(self, node: ast.FunctionDef) -> bool:
         self.names[node.name] = self.closed(node, node.name)
+        return True
+
+    def _do_ImportFrom(self, node: ast.ImportFrom) -> bool:
+        module = importlib.import_module("." * node.level + (node.module or ""), self.closure.module["__package__"])
+        self.names |= {each.asname or each.name: getattr(module, each.name) for each in node.names}
         return True
 
     def _do_With(self, node: ast.With) -> bool:
@@ -119,10 +135,20 @@ class Scope(Expressions):
     def _joined(self, name: str, one: Any, other: Any, then: code.Block, otherwise: code.Block) -> Any:
         if isinstance(one, Poison) or isinstance(other, Poison):
             return one if isinstance(one, Poison) else other
+        if one is not other:
+            one, other = self._stored_in(then, name, one), self._stored_in(otherwise, name, other)
         try:
             return self.unit.joined(name, one, other, then, otherwise)
         except Untranslatable as error:
             return Poison(str(error))
+
+    def _stored_in(self, block: code.Block, name: str, value: Any) -> Any:
+        """Return a value of a branch; a part of an array becomes an array of its own at the end of that."""
+        if not isinstance(value, View):
+            return value
+        found, statements = self.unit.branch(lambda: grids.stored(self.unit, value, name))
+        block.extend(statements)
+        return found
 
     def _do_Break(self, node: ast.Break) -> bool:
         return self._leave("break")
@@ -143,12 +169,13 @@ class Scope(Expressions):
 
     def _do_For(self, node: ast.For) -> bool:
         items = self.value(node.iter)
-        if isinstance(items, range) and len(items) > _LONG:
+        stays = isinstance(items, range) and (len(items) > _LONG or is_compiled(self.closure.node))
+        if stays or isinstance(items, Span):
             counted(self, node, items)
             return True
         loop = Unrolled(len(self.unit.blocks))
         self.unit.loops.append(loop)
-        for item in list(items):
+        for item in self.listed(items):
             self.bind(node.target, item)
             loop.left = ""
             if not self.run(node.body) and not loop.left:
@@ -160,3 +187,8 @@ class Scope(Expressions):
 
     def _do_While(self, node: ast.While) -> bool:
         return repeated(self, node)
+
+
+def _loaded(target: ast.expr) -> ast.expr:
+    """Return the target of an assignment as an expression."""
+    return ast.parse(ast.unparse(target), mode="eval").body

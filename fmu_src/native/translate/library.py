@@ -5,6 +5,7 @@ import contextlib
 import dataclasses
 import math
 from collections.abc import Callable
+from statistics import NormalDist
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,15 @@ from contact_core.state import state as states
 from .values import Num, Untranslatable, as_double, both, call, compare, either, is_dynamic, kind_of, literal
 
 Handler = Callable[..., Any]
+
+
+@dataclasses.dataclass(frozen=True)
+class Span:
+    """A range with an end that is known at run time only."""
+
+    start: Any
+    stop: Any
+    step: int = 1
 
 
 def elementwise(function: Handler) -> Handler:
@@ -54,6 +64,8 @@ def _pair(name: str, first: bool) -> Handler:
             return min(x, y) if first else max(x, y)
         if kind_of(x) != "d" and kind_of(y) != "d":
             return chosen(compare("<" if first else ">", y, x), y, x)
+        if isinstance(x, Num) and isinstance(y, Num) and x.text == y.text:
+            return x
         return call(name, x, y)
 
     return elementwise(one)
@@ -109,7 +121,7 @@ def _float(value: Any) -> Any:
 
 def _int(value: Any) -> Any:
     if isinstance(value, Num) and value.kind == "d":
-        raise Untranslatable(f"int({value.text}): whole numbers of a double are not needed so far")
+        return Num(f"whole_number({value.text})", "i")
     return value if isinstance(value, Num) else int(value)
 
 
@@ -218,24 +230,29 @@ HANDLERS: dict[Any, Handler] = {
     builtins.dict: lambda *items, **rest: dict(*items, **rest),
     np.where: _where,
     np.divide: _divide,
+    np.empty: lambda shape, *_: np.zeros(shape),
+    np.empty_like: _like(0.0),
     np.zeros_like: _like(0.0),
     np.ones_like: _like(1.0),
     np.full_like: _like(0.0),
     np.array: _array,
     np.asarray: _asarray,
+    np.ravel: lambda array: array.ravel(),
     np.broadcast_arrays: lambda *arrays: list(arrays),
     np.vdot: lambda one, other: _sum(a * b for a, b in zip(one.flat, other.flat, strict=True)),
     np.logaddexp: elementwise(_logaddexp),
+    np.sign: elementwise(lambda x: compare(">", x, 0.0) - compare("<", x, 0.0)),
     np.copysign: elementwise(_copysign),
     math.copysign: _copysign,
     math.isfinite: lambda value: compare("<", call("fabs", value), math.inf),
+    NormalDist.inv_cdf: lambda normal, share: normal.mean + normal.stdev * call("own_normal_score", share),
     states.changed: _changed,
     dataclasses.replace: _changed,
     np.errstate: lambda **_: contextlib.nullcontext(),
 }
 
 # of numbers that are known, too: lists in place of iterators that end, numbers in place of arrays without a shape
-ALWAYS = {builtins.zip, builtins.enumerate, np.zeros_like, np.ones_like, np.full_like}
+ALWAYS = {np.empty, np.empty_like, builtins.zip, builtins.enumerate, np.zeros_like, np.ones_like, np.full_like}
 
 
 def _along(function: Handler) -> Handler:
@@ -265,4 +282,5 @@ ARRAY_METHODS: dict[str, Handler] = {
     "all": _all,
     "tolist": lambda array: array.tolist(),
     "ravel": lambda array: array.ravel(),
+    "astype": lambda array, kind: elementwise(_int if np.dtype(kind).kind in "iu" else _float)(array),
 }

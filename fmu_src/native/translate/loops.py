@@ -4,7 +4,8 @@ import ast
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from . import code
+from . import code, grids
+from .library import Span
 from .units import Names, Poison, Unit, common_kind, matched, unified
 from .values import Num, leaves, literal, replaced, signature
 
@@ -12,12 +13,13 @@ MOST_ROUNDS = 10_000  # of a loop whose end is known at run time only: the time 
 _TOO_LONG = f"The step needs more than {MOST_ROUNDS} parts: the surfaces change too much in it. Take shorter steps."
 
 
-def counted(scope: Names, node: ast.For, items: range) -> None:
+def counted(scope: Names, node: ast.For, items: range | Span) -> None:
     """Write a loop over a range."""
     assert isinstance(node.target, ast.Name)
     name = scope.unit.fresh(node.target.id)
     before = "<" if items.step > 0 else ">"
-    head = f"for (int {name} = {items.start}; {name} {before} {items.stop}; {name} += {items.step})"
+    start, stop = (literal(each, "i").text for each in (items.start, items.stop))
+    head = f"for (int {name} = {start}; {name} {before} {stop}; {name} += {items.step})"
     scope.names[node.target.id] = Num(name, "i")
     _loop(scope, head, node.body, lambda: False)
     scope.names.pop(node.target.id, None)
@@ -49,8 +51,15 @@ def _loop(scope: Names, head: str, body: list[ast.stmt], begun: Callable[[], boo
     """
     unit, before = scope.unit, dict(scope.names)
     bound = _bound(body)
-    changing = [name for name in bound if name in before and not isinstance(before[name], Poison)]
-    start = {name: before[name] for name in changing}
+    again = _bound(body, in_place=False)  # arrays that are changed in place stay what they are
+    changing = [
+        name
+        for name in bound
+        if name in before
+        and not isinstance(before[name], Poison)
+        and (name in again or not isinstance(before[name], grids.Grid))
+    ]
+    start = {name: grids.settled(unit, before[name], name) for name in changing}
     forms = {name: replaced(value, lambda number: Num("", number.kind)) for name, value in start.items()}
     while True:
         mark, names = len(unit.blocks[-1]), set(unit.names)
@@ -66,7 +75,7 @@ def _loop(scope: Names, head: str, body: list[ast.stmt], begun: Callable[[], boo
         unit.names = names
     for name in changing:
         for (_, variable), value in zip(leaves(carried[name]), matched(start[name], forms[name]), strict=True):
-            unit.emit(code.Put(variable.text, value.text))
+            unit.emit(code.set_to(variable.text, variable.kind, value.text))
     unit.emit(code.Loop(head, inside))
     inner = {name: Poison("it is bound in a loop alone: bind it before the loop, too") for name in bound}
     scope.names = inner | before | carried
@@ -86,7 +95,7 @@ def _round(
     def put_back(inner: Names, leaves_loop: bool) -> None:
         nonlocal has_end
         has_end |= leaves_loop
-        ends.append({name: inner.names[name] for name in carried})
+        ends.append({name: grids.settled(unit, inner.names[name], name) for name in carried})
         _put_back(unit, carried, ends[-1])
 
     unit.loops.append(put_back)
@@ -105,10 +114,15 @@ def _wider(name: str, form: Any, values: Iterable[Any]) -> Any:
     return found
 
 
-def _bound(body: list[ast.stmt]) -> list[str]:
-    """Return the names that statements bind, in order."""
-    nodes = (node for statement in body for node in ast.walk(statement))
-    names = (x.id for x in nodes if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store))
+def _bound(body: list[ast.stmt], *, in_place: bool = True) -> list[str]:
+    """Return the names that statements bind, in order; `in_place`: also those that they add to and the like."""
+    nodes = [node for statement in body for node in ast.walk(statement)]
+    added = {id(x.target) for x in nodes if isinstance(x, ast.AugAssign)}
+    names = (
+        x.id
+        for x in nodes
+        if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store) and (in_place or id(x) not in added)
+    )
     return list(dict.fromkeys(name for name in names if name != "_"))  # which nobody reads
 
 
@@ -127,12 +141,16 @@ def _put_back(unit: Unit, carried: dict[str, Any], now: dict[str, Any]) -> None:
             if value.text != target.text:
                 pairs.append((target.text, value))
     targets = {target for target, _ in pairs}
-    puts: list[code.Put] = []
+    puts: list[code.Put | code.Call] = []
     for name, value in pairs:
         text = value.text
         if code.names_in(text) & targets:  # would have changed by then
-            text = unit.fresh(f"next_{name}")
-            unit.emit(code.Let(code.c_type(value.kind), text, value.text))
-        puts.append(code.Put(name, text))
+            if "[" in value.kind:
+                text = unit.variable(f"next_{name}", value.kind).text
+                unit.emit(code.set_to(text, value.kind, value.text))
+            else:
+                text = unit.fresh(f"next_{name}")
+                unit.emit(code.Let(code.c_type(value.kind), text, value.text))
+        puts.append(code.set_to(name, value.kind, text))
     for put in puts:
         unit.emit(put)

@@ -125,3 +125,10 @@ def with_alike(value: Any) -> Any:
         return numbers[int(hole.text.removeprefix(_LIKE))] if hole.text.startswith(_LIKE) else hole
 
     return replaced(value, own)
+
+
+def parameter_of(parameter: Num, sets: bool) -> str:
+    """Return the declaration of a parameter; an array that is not set is constant."""
+    if "[" not in parameter.kind:
+        return f"{code.c_type(parameter.kind)} {parameter.text}"
+    return f"{'' if sets else 'const '}{code.c_type(parameter.kind[0])} *{parameter.text}"

@@ -59,6 +59,40 @@ def is_straight(node: Any) -> bool:
     return isinstance(last, ast.Return) and all(isinstance(each, ast.Assign) for each in before)
 
 
+def is_compiled(node: Any) -> bool:
+    """Return True for a function that numba compiles: its loops stay loops, and it may set arrays."""
+    marks = [ast.unparse(each) for each in getattr(node, "decorator_list", [])]
+    return any(mark.endswith("jit") for mark in marks)
+
+
+@functools.cache
+def names_set(node: Any) -> frozenset[str]:
+    """Return the names of arrays of which a function sets elements."""
+    targets = (each.value for each in ast.walk(node) if isinstance(each, ast.Subscript) and _is_stored(each))
+    return frozenset(each.id for each in targets if isinstance(each, ast.Name))
+
+
+@functools.cache
+def takers(node: Any, name: str) -> frozenset[str]:
+    """Return the names of functions that are called with a name."""
+    calls = (each for each in ast.walk(node) if isinstance(each, ast.Call) and isinstance(each.func, ast.Name))
+    return frozenset(
+        each.func.id  # type: ignore[attr-defined]
+        for each in calls
+        if any(isinstance(operand, ast.Name) and operand.id == name for operand in each.args)
+    )
+
+
+@functools.cache
+def calls(node: ast.expr) -> bool:
+    """Return True for an expression with a call."""
+    return any(isinstance(each, ast.Call) for each in ast.walk(node))
+
+
+def _is_stored(node: ast.Subscript) -> bool:
+    return isinstance(node.ctx, ast.Store)
+
+
 def expression_of(node: Any) -> ast.expr | None:
     """Return the expression of a function that is nothing else."""
     if isinstance(node, ast.Lambda):

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from . import code
+from . import code, grids
 from .values import (
     Closure,
     Num,
@@ -38,7 +38,9 @@ _TAKEN = KEYWORDS.union(  # and what headers of C and elementary.h have
     re.findall(
         r"\w+",
         "why exp log pow sqrt fabs floor ceil round gamma time index j0 j1 y0 y1 jn yn tanh sinh remainder signal "
-        "squared smaller larger centre from_bits bits_of exp_parts exp_of log_of power_of_two refuse",
+        "squared cubed fourth_power eighth_power fourth_root power_0_75 power_1_5 smaller larger centre from_bits "
+        "bits_of upper_half exp_parts exp_at_ends exp_of log_parts log_of log_at_ends power_at_ends power_of "
+        "power_of_two exponential logarithm refuse whole_number place_inside memcpy memset ratio_of",
     )
 )
 
@@ -70,6 +72,11 @@ class Unit:
         self.cached: list[tuple[Any, str]] = []  # properties kept in the present block
         self.loops: list[Any] = []
         self._known: list[dict[str, str]] = [{}]  # expressions that have a name, for each block
+        self.arrays: set[str] = set()  # their names: what is read of them may change
+        self.written: set[str] = set()  # arrays that are set
+        self.compiled = False  # its Python is compiled: what it reads of arrays is in them
+        self._indices: set[str] = set()  # names that count rounds of loops
+        self.outs: list[str] = []  # names of the parameters that take arrays it returns
 
     def emit(self, statement: code.Statement) -> None:
         """Add a statement to the present block."""
@@ -84,7 +91,7 @@ class Unit:
 
     def let(self, name: str, value: Num) -> Num:
         """Return a name for a value; names and constants stay as they are."""
-        if _WHOLE.fullmatch(value.text):
+        if _WHOLE.fullmatch(value.text) or "[" in value.kind:
             return value
         found = self.known(value.text)
         if found is None:
@@ -95,15 +102,35 @@ class Unit:
 
     def known(self, text: str) -> str | None:
         """Return the name that an expression has already."""
+        if self.may_change(text):
+            return None
         return next((names[text] for names in self._known if text in names), None)
 
     def keep(self, text: str, name: str) -> None:
         """Keep the name of an expression to the end of the present block."""
         self._known[-1][text] = name
 
+    def may_change(self, text: str) -> bool:
+        """Return True if an expression reads an array."""
+        return "[" in text or bool(self.arrays and code.names_in(text) & self.arrays)
+
+    def counts(self, index: str) -> None:
+        """Take note that a name counts the rounds of a loop."""
+        self._indices.add(index)
+
+    def trusts(self, place: str) -> bool:
+        """Return True for a place that is in every array it is used for."""
+        return self.compiled or place in self._indices
+
+    def writes(self, name: str) -> None:
+        """Take note that an array is written."""
+        self.written.add(name)
+
     def variable(self, name: str, kind: str) -> Num:
         """Return a variable that is set later."""
         found = self.fresh(name)
+        if "[" in kind:
+            self.arrays.add(found)
         self.emit(code.Let(code.c_type(kind), found, None))
         return Num(found, kind)
 
@@ -111,9 +138,12 @@ class Unit:
         """Return a value whose members all have names."""
         if isinstance(value, Num):
             return self.let(name, value)
-        if not is_dynamic(value):
+        if not is_dynamic(value) or isinstance(value, grids.View):
             return value
-        return rebuilt(value, [self.named(_path(name, part), item) for part, item in parts(value) or ()])
+        if isinstance(value, grids.Grid):
+            return grids.stored(self, value, name)
+        members = [(_path(name, part), item) for part, item in parts(value) or ()]
+        return rebuilt(value, [grids.settled(self, self.named(path, item), path) for path, item in members])
 
     def branch(self, work: Callable[[], Any]) -> tuple[Any, code.Block]:
         """Return what some work gives, and the statements that it makes; properties it computes are forgotten."""
@@ -136,8 +166,8 @@ class Unit:
         def leaf(path: str, first: Any, second: Any) -> Num:
             kind = common_kind(first, second)
             made = self.variable(path, kind)
-            then.append(code.Put(made.text, literal(first, kind).text))
-            otherwise.append(code.Put(made.text, literal(second, kind).text))
+            then.append(code.set_to(made.text, kind, literal(first, kind).text))
+            otherwise.append(code.set_to(made.text, kind, literal(second, kind).text))
             return made
 
         return unified(one, other, leaf, name)
@@ -194,6 +224,10 @@ def _path(name: str, part: str) -> str:
 def common_kind(one: Any, other: Any) -> str:
     """Return the kind of a variable for both numbers."""
     kinds = {kind_of(one), kind_of(other)}
+    if "[" in kind_of(one):
+        if len({kind.replace("b", "i") for kind in kinds}) > 1:
+            raise Untranslatable(f"one array of {' or '.join(sorted(kinds))}: it must have one form")
+        return kind_of(one)
     return "d" if "d" in kinds else "i" if "i" in kinds else "b"
 
 
@@ -209,7 +243,7 @@ def unified(one: Any, other: Any, leaf: Leaf, name: str = "") -> Any:
         return one if same and (not isinstance(one, Num) or one.text) else leaf(name, one, other)
     if not is_dynamic(one) and not is_dynamic(other) and signature(one) == signature(other):
         return one
-    one, other = _alike(one, other)
+    one, other = _alike(*grids.both_stored(one, other))
     mine, theirs = parts(one), parts(other)
     if type(one) is not type(other) or mine is None or theirs is None:
         raise Untranslatable(f"'{name}' is {_what(one)} or {_what(other)}: it must have one form")
@@ -258,6 +292,10 @@ def matched(value: Any, template: Any) -> list[Num]:
         return [literal(value, template.kind)]
     if not is_dynamic(template):
         return []
+    if isinstance(template, grids.Stored):
+        if isinstance(value, np.ndarray):
+            return [grids.table(value).data]
+        return [value.data if isinstance(value, grids.Stored) else value]
     if isinstance(value, np.ndarray):
         value = value.astype(object)
     given = dict(parts(value) or ())

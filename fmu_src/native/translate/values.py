@@ -18,7 +18,10 @@ class Untranslatable(Exception):  # noqa: N818  # what it is, not that it failed
 
 
 class Num:
-    """A number at run time: a C expression of kind "d" (double), "i" (int) or "b" (0 or 1)."""
+    """A number at run time: a C expression of kind "d" (double), "i" (int) or "b" (0 or 1).
+
+    Of kind "d[12]" it is a C array of that many.
+    """
 
     __slots__ = ("binds", "kind", "text")
 
@@ -49,7 +52,7 @@ class Num:
     def __sub__(self, other: Any) -> Any:
         if _is(other, 0.0):
             return self
-        return binary("-", self, other, ADD, ADD + 1)
+        return 0.0 if _same(self, other) else binary("-", self, other, ADD, ADD + 1)
 
     def __rsub__(self, other: Any) -> Any:
         return -self if _is(other, 0.0) else binary("-", other, self, ADD, ADD + 1)
@@ -63,10 +66,10 @@ class Num:
     def __truediv__(self, other: Any) -> Any:
         if _is(other, 1.0):
             return self
-        return binary("/", as_double(self), other, MULTIPLY, MULTIPLY + 1)
+        return 1.0 if _same(self, other) else binary("/", as_double(self), other, MULTIPLY, MULTIPLY + 1)
 
     def __rtruediv__(self, other: Any) -> Any:
-        return binary("/", other, as_double(self), MULTIPLY, MULTIPLY + 1)
+        return 0.0 if _is(other, 0.0) else binary("/", other, as_double(self), MULTIPLY, MULTIPLY + 1)
 
     def __mod__(self, other: Any) -> Any:
         return binary("%", self, other, MULTIPLY, MULTIPLY + 1)
@@ -122,6 +125,25 @@ class Num:
         return compare("!=", self, other)
 
 
+class Grid:
+    """An array at run time, see `grids`."""
+
+    shape: tuple[int, ...]
+
+    def members(self) -> list[tuple[str, Any]]:
+        """Return the C arrays that it consists of; see `parts`."""
+        return []
+
+    def with_members(self, members: list[Any]) -> "Grid":
+        """Return an array like it that lies in other C arrays."""
+        return self
+
+
+def array_kind(kind: str, size: int) -> str:
+    """Return the kind of a C array of numbers of a kind."""
+    return f"{kind}[{size}]"
+
+
 def literal(value: Any, kind: str = "d") -> Num:
     """Return a constant as C."""
     if isinstance(value, Num):
@@ -174,7 +196,13 @@ def _sum(one: Any, other: Any) -> Any:
     return one if _is(other, 0.0) else binary("+", one, other, ADD, ADD + 1)
 
 
+def _same(one: Any, other: Any) -> bool:
+    return isinstance(other, Num) and one.text == other.text
+
+
 def _product(one: Any, other: Any) -> Any:
+    if is_number(one) and is_number(other) and (_is(one, 0.0) or _is(other, 0.0)):
+        return 0.0  # all numbers of an equation that is in use are finite
     if _is(one, 1.0):
         return other
     return one if _is(other, 1.0) else binary("*", one, other, MULTIPLY, MULTIPLY + 1)
@@ -187,6 +215,8 @@ def _bits(sign: str, one: Any, other: Any) -> Any:
             unknown = other if isinstance(one, bool) else one
             return (True if known else unknown) if sign == "|" else (unknown if known else False)
         return both(one, other) if sign == "&" else either(one, other)
+    if sign == "|" and (_is(one, 0) or _is(other, 0)):
+        return other if _is(one, 0) else one
     first, second = (literal(each, "i").at_least(COMPARE + 1) for each in (one, other))  # as compilers ask for
     return Num(f"{first} {sign} {second}", "i", BIT)
 
@@ -234,15 +264,23 @@ def call(name: str, *operands: Any) -> Num:
     return Num(f"{name}({', '.join(literal(x).text for x in operands)})")
 
 
+# names in elementary.h: powers that are right to a few units in the last place by multiplications and roots alone
+_POWERS = {0.25: "fourth_root", 0.5: "sqrt", 0.75: "power_0_75", 1.5: "power_1_5", 2.0: "squared", 3.0: "cubed"}
+_POWERS |= {4.0: "fourth_power", 8.0: "eighth_power"}
+
+
 def power(base: Any, exponent: Any) -> Any:
-    """Return a power: of small whole or half exponents without a logarithm."""
+    """Return a power: of small whole or quarter exponents without a logarithm."""
     if not (is_number(base) and is_number(exponent)):
         return NotImplemented
     if isinstance(base, Num) and not isinstance(exponent, Num):
-        special = {1.0: base, 0.5: call("sqrt", base), 2.0: call("squared", base), -1.0: 1.0 / base, 0.0: 1.0}
-        special |= {-0.5: 1.0 / call("sqrt", base), -2.0: 1.0 / call("squared", base)}
-        if float(exponent) in special:
-            return special[float(exponent)]
+        size = abs(float(exponent))
+        if size in (0.0, 1.0):
+            found: Any = base if size else 1.0
+            return found if exponent >= 0.0 else 1.0 / found
+        if size in _POWERS:
+            found = call(_POWERS[size], base)
+            return found if exponent > 0.0 else 1.0 / found
     return call("own_pow", base, exponent)
 
 
@@ -267,6 +305,8 @@ _WHOLE = frozenset({float, int, bool, str, type(None), np.float64, FunctionType,
 
 def parts(value: Any) -> list[tuple[str, Any]] | None:
     """Return names and members of a value that has some; None of one that is whole."""
+    if isinstance(value, Grid):
+        return value.members()
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return list(zip(value._fields, value, strict=True))
     if isinstance(value, tuple | list):
@@ -286,6 +326,8 @@ def parts(value: Any) -> list[tuple[str, Any]] | None:
 
 def rebuilt(value: Any, members: list[Any]) -> Any:
     """Return a value like another, with other members (in the order of `parts`)."""
+    if isinstance(value, Grid):
+        return value.with_members(members)
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return type(value)(*members)
     if isinstance(value, tuple | list):
@@ -309,7 +351,7 @@ def rebuilt(value: Any, members: list[Any]) -> Any:
 
 def is_dynamic(value: Any) -> bool:
     """Return True if any number in a value is known at run time only."""
-    if isinstance(value, Num):
+    if isinstance(value, Num | Grid):
         return True
     if type(value) in _WHOLE or id(value) in _static:
         return False
@@ -332,7 +374,8 @@ def _collect(value: Any, name: str, found: list[tuple[str, Num]]) -> None:
     elif not (type(value) in _WHOLE or id(value) in _static):
         before = len(found)
         for part, item in parts(value) or ():
-            _collect(item, part if not part[:1].isdigit() or not name else f"{name}_{part}", found)
+            own = part if not part[:1].isdigit() or not name else f"{name}_{part}"
+            _collect(item, name if isinstance(value, Grid) else own, found)
         if len(found) == before:
             _remember(value)
 
@@ -364,7 +407,7 @@ def signature(value: Any) -> Any:
         own = (
             (id(value.node),) if isinstance(value, Closure) else (value.function,) if isinstance(value, Method) else ()
         )
-        shape = value.shape if isinstance(value, np.ndarray) else ()
+        shape = value.shape if isinstance(value, np.ndarray | Grid) else ()
         return type(value), own, shape, tuple((name, signature(item)) for name, item in parts(value) or ())
     if isinstance(value, Closure):
         return id(value.node), tuple((name, signature(item)) for name, item in value.names.items())

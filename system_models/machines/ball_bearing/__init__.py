@@ -5,7 +5,6 @@
     geometry      balls and grooves, curvatures, Hertz stiffness, free contact angle; bearings 209 and 218
     equilibrium   equilibrium of the inner ring, with five degrees of freedom
     kernels       equilibrium of balls and ring, rolling of balls
-    scalars       equilibrium and load classes once more with numbers, to be written as C
     kinematics    speeds, spin and differential sliding in the contacts
     load_classes  balls in load classes, one contact for all balls of about one load
     textbook      friction torque after SKF and Palmgren, load integrals after Sjovall

@@ -76,13 +76,13 @@ def solve(
     fixed = _fixed(geometry)
     azimuth: Array = np.array([first_ball + 2.0 * math.pi * j / count for j in range(count)])
     known = np.zeros(5 + 2 * count) if start is None else np.array(start)
-    ring, inertia = known[:5], known[5:].reshape(count, 2)
+    ring, inertia, balls = known[:5].copy(), known[5:].reshape(count, 2).copy(), fixed.balls.copy()
     forces = np.array([loads.x, loads.y, loads.z, loads.moment_y / arm, loads.moment_z / arm])
     found = np.empty((count, 11))
     centring = _CENTRING + np.array([0.0, 0.0, 0.0, *2 * [tilt_stiffness / arm**2]])
     left, largest, steps = settle(
         ring,
-        fixed.balls.copy(),
+        balls,
         inertia,
         np.stack([np.cos(azimuth), np.sin(azimuth)], axis=1),
         fixed.centre,
@@ -109,7 +109,7 @@ def solve(
         cage(found, fixed.idle),
         left / largest,
         steps,
-        tuple(known.tolist()),
+        (x, y, z, tilt_y, tilt_z, *inertia.ravel().tolist()),
     )
 
 

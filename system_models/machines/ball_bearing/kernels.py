@@ -279,6 +279,7 @@ def settle(  # type: ignore[no-untyped-def]
     control, held by friction on that race. Returns the largest force left over, the largest force, and Newton's steps.
     """
     square, steps, before, wanted = speed * speed, 0, np.inf, np.empty_like(inertia)
+    left, largest, change = 0.0, 1.0, 0.0
     for _ in range(_ROUNDS):
         pressed = square * inertia
         largest = max(np.abs(forces).max(), np.abs(pressed).max(), 1.0)

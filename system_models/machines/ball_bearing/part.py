@@ -1,6 +1,6 @@
 """A ball bearing as a component: forces and speed out to the classes of its contacts, friction and heat back."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
@@ -96,13 +96,6 @@ class BallBearing(Part):
     standstill: float = parameter(
         "rad/s", "speed below which friction goes over to that at rest", above=0.0, most=10.0, default=0.1
     )
-
-    @classmethod
-    def instead(cls) -> Mapping[Any, Callable[..., Any]]:
-        """Equilibrium and load classes with scalars."""
-        from .scalars import INSTEAD  # which needs this module
-
-        return INSTEAD
 
     def check(self) -> None:
         """Raise SceneError if the dimensions do not go together."""
@@ -291,7 +284,7 @@ class BallBearing(Part):
 
 def pressure(race: Race, load: float) -> float:
     """Return the largest pressure [Pa] of a contact under a load [N] >= 0."""
-    return race.ellipse(load).pressure_max if load else 0.0
+    return race.unit.pressure_max * race.unit.growth(load)[0]
 
 
 def _alike(name: str, race: RaceName, k: int, nominal: float) -> dict[str, Any]:

@@ -73,7 +73,7 @@ class BearingRun:
 
     def of(self, name: str) -> Array:
         """Return a variable of the dataset."""
-        return np.asarray(self.dataset[name].values, dtype=np.float64)
+        return np.asarray(self.dataset.variables[name].values, dtype=np.float64)
 
     @property
     def classes(self) -> tuple[ContactClass, ...]:

@@ -96,7 +96,7 @@ class Record:
 
     def of(self, name: str) -> Array:
         """Return a variable "component.output" by row."""
-        return np.asarray(self.dataset[name].values)
+        return np.asarray(self.dataset.variables[name].values)
 
     def along(self, quantity: str) -> Array:
         """Return a quantity of the contacts by row and station."""

@@ -1,0 +1,236 @@
+"""What a scene that does not say otherwise has: laws switched off, usual numbers of the field, numerical settings.
+
+A default stands for what a data sheet and a drawing do not give. Load, speeds, temperature, radius, roughness, the oil
+and the solids have none; neither have the constants of a law that is chosen by its `model`. Every default that a scene
+takes is listed as `Assumed`, so that a run can say it. The grid follows from Hertz's contact, see `hertz_grid`; fields
+with a default of their own in the records (such as film.tolerance) are not listed.
+"""
+
+import copy
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import MISSING, fields
+from typing import Any, NamedTuple
+
+from ..errors import SceneError
+from ..laws.viscosity import AstmD341
+from .records import ACCURACY
+from .toml import models_of, with_named_set
+from .units import parse
+
+
+class Assumed(NamedTuple):
+    """A value that a scene does not give."""
+
+    key: str  # dotted; that of a table where a law is taken as a whole
+    value: str  # as it would stand in the scene
+    why: str  # where it comes from
+    kind: str = "assumed"  # or "numerical": of how the contact is solved, or without effect on it; or "off"
+
+
+_TABLES = (
+    "geometry", "solids", "surface_1", "surface_2", "lubricant", "plasticity", "boundary_friction", "heat",
+    "tribofilm", "wear", "film", "control", "operation",
+)  # fmt: skip
+_NO_LAW = "none"
+_OFF = ("heat", "tribofilm", "wear")
+_CHANGING = ("tribofilm", "wear", "oxide", "fatigue")  # with one of them surfaces change from pass to pass
+_STEEL = "of steel in contact with steel, assumed as in the shipped scenes"
+_NUMERICAL = "numerical"
+_LAWS: dict[str, tuple[dict[str, Any], str]] = {
+    "lubricant.density": ({"model": "dowson_higginson"}, "the usual law of mineral oils"),
+    "lubricant.rheology": (
+        {"model": "eyring", "eyring_stress": "5 MPa", "limiting_coefficient": 0.047},
+        "a paraffinic mineral oil, Hoglund, Wear 232 (1999) 176; the stress is assumed",
+    ),
+    "boundary_friction": ({"model": "film_blend", "bare": 0.13, "film": 0.115, "slip_speed": "1 um/s"}, _STEEL),
+}
+_PLASTICITY = {"set": "steel"}
+_CONTROL = {"change": "3 nm", "dry_above": 0.8, "input_change": 0.02}
+_FLOOR = "1 nm"
+_LENGTH, _LENGTH_PER_RQ = 8e-6, 40.0  # of roughness: as in the shipped scenes; rms slopes stay below 0.05
+_REFERENCE = "40 degC"
+_ROW, _STEADY = "60 s", "60 s"
+_NAME = "contact"
+
+
+def completed_by_defaults(table: Mapping[str, Any]) -> tuple[dict[str, Any], list[Assumed]]:
+    """Return a scene's table with the values that it does not give, and a list of these.
+
+    What has no default is left out; `toml.build` names it.
+    """
+    filling = _Filling(table)
+    for part in _OFF:
+        filling.give(part, _NO_LAW, "switched off", "off")
+    for part, (law, why) in _LAWS.items():
+        filling.give_law(part, law, why)
+    filling.give("plasticity", _PLASTICITY, "hardness of steel")
+    for key, value in _CONTROL.items():
+        if f"control.{key}" != "control.change" or not filling.has(ACCURACY):  # which chooses the changes itself
+            filling.give(f"control.{key}", value, "of the blocks over time", _NUMERICAL)
+    filling.give("film.model", "deterministic", "solved node by node", _NUMERICAL)
+    if filling.needs("film", "floor"):
+        filling.give("film.floor", _FLOOR, "thickness of the adsorbed layer, assumed as in the shipped scenes")
+    _surfaces(filling)
+    _oil(filling)
+    _bodies(filling)
+    _duty(filling)
+    filling.name()
+    return filling.table, filling.assumed
+
+
+def told(assumed: Sequence[Assumed]) -> str:
+    """Return a line on the values that a scene does not give, empty without any."""
+    said = []
+    for kind in ("assumed", "numerical", "off"):
+        named = [each.key if kind == "off" else f"{each.key} {each.value}" for each in assumed if each.kind == kind]
+        said += [f"{kind}: {', '.join(named)}"] if named else []
+    return "; ".join(said)
+
+
+class _Filling:
+    """A scene's table that is being completed."""
+
+    def __init__(self, table: Mapping[str, Any]) -> None:
+        self.table: dict[str, Any] = copy.deepcopy(dict(table))
+        self.assumed: list[Assumed] = []
+        self.known = {key: _expanded(value, key) for key, value in self.table.items()}  # sets by their values
+
+    def get(self, key: str) -> Any:
+        """Return the value of a dotted key, in the table or in a named set; None: not there."""
+        found: Any = self.known
+        for part in key.split("."):
+            found = found.get(part) if isinstance(found, Mapping) else None
+        return found
+
+    def has(self, key: str) -> bool:
+        """Return True if the table, or a set that it names, gives a dotted key."""
+        return self.get(key) is not None
+
+    def give(self, key: str, value: Any, why: str, kind: str = "assumed") -> None:
+        """Set a dotted key unless it is there, or its table is no table."""
+        if self.has(key):
+            return
+        *path, last = key.split(".")
+        for root in (self.table, self.known):
+            node = root
+            for part in path:
+                node = node.setdefault(part, {})
+                if not isinstance(node, dict):
+                    return
+            node[last] = copy.deepcopy(value)
+        self.assumed.append(Assumed(key, _text(value), why, kind))
+
+    def give_law(self, path: str, law: Mapping[str, Any], why: str) -> None:
+        """Set a law, or the keys of it that a table of this law, or of no named one, leaves out."""
+        given = self.get(path)
+        if given is None:
+            self.give(path, dict(law), why)
+        elif isinstance(given, Mapping) and given.get("model", law["model"]) == law["model"] and set(given) <= set(law):
+            for key, value in law.items():
+                self.give(f"{path}.{key}", value, why)
+
+    def needs(self, part: str, field: str) -> bool:
+        """Return True if the record that the table chooses has a field without a default of its own."""
+        records = {record.name: record for record in models_of(part)}
+        record = records.get(str(self.get(f"{part}.model")))
+        return record is not None and any(f.name == field and f.default is MISSING for f in fields(record))
+
+    def number(self, key: str, unit: str) -> float | None:
+        """Return the value of a key in SI; None if it is not there, or no such quantity: reading it will say so."""
+        try:
+            return parse(self.get(key), unit, key)
+        except SceneError:
+            return None
+
+    def acts(self, part: str) -> bool:
+        """Return True if the table chooses a law other than 'none' for a slot."""
+        given = self.get(part)
+        return given is not None and (given.get("model") if isinstance(given, Mapping) else given) != _NO_LAW
+
+    def name(self) -> None:
+        """Set name and description, and empty tables for those that are missing: their keys will be named."""
+        self.table.setdefault("name", _NAME)
+        for part in _TABLES:
+            self.table.setdefault(part, {})
+        said = [self.get(f"operation.{key}") for key in ("load", "speed_1", "speed_2", "temperature")]
+        self.table.setdefault("description", f"{self.table['name']}: {', '.join(str(each) for each in said if each)}")
+
+
+def _expanded(value: Any, path: str) -> Any:
+    """Return a table with the values of its sets; a set that cannot be read is left for reading to refuse."""
+    if not isinstance(value, Mapping):
+        return value
+    try:
+        table = with_named_set(dict(value), path)
+    except SceneError:
+        table = dict(value)
+    return {key: _expanded(item, f"{path}.{key}") for key, item in table.items()}
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return ", ".join(_text(item) if key in ("model", "set") else f"{key} {item}" for key, item in value.items())
+    return str(value)
+
+
+def _surfaces(filling: _Filling) -> None:
+    for seed, part in enumerate(("surface_1", "surface_2"), 1):
+        if filling.has(f"{part}.heights"):
+            filling.give(f"{part}.rq", "0 nm", "the file of heights is all of the roughness")
+        rq = filling.number(f"{part}.rq", "m")
+        if filling.get(f"{part}.model") in (None, "gaussian"):
+            length = max(_LENGTH, _LENGTH_PER_RQ * (rq or 0.0))
+            why = "without effect on a smooth body" if rq == 0.0 else "assumed: 8 um as in the shipped scenes, or 40 Rq"
+            kind = _NUMERICAL if rq == 0.0 else "assumed"
+            filling.give(f"{part}.correlation_length", f"{1e6 * length:.4g} um", why, kind)
+        filling.give(f"{part}.seed", seed, "number of the random surface", _NUMERICAL)
+
+
+def _oil(filling: _Filling) -> None:
+    """Set what a data sheet of an oil leaves out."""
+    oil = "lubricant.viscosity"
+    if filling.has(f"{oil}.viscosity_40") or filling.has(f"{oil}.viscosity_100"):
+        filling.give(f"{oil}.model", AstmD341.name, "an oil by its data sheet", _NUMERICAL)
+    if filling.get(f"{oil}.model") != AstmD341.name:
+        return
+    filling.give(f"{oil}.reference_temperature", _REFERENCE, "temperature of the pressure coefficient")
+    at = filling.number(f"{oil}.reference_temperature", "K")
+    cold, hot = (filling.number(f"{oil}.viscosity_{mark}", "m2/s") for mark in (40, 100))
+    coefficient = 0.0  # where reading the data sheet will be refused
+    if cold is not None and hot is not None and at is not None and 2e-6 <= hot < cold:
+        law = AstmD341(cold, hot, 1.0, 0.0, at, expansion=0.0)  # of 1 kg/m3: its viscosity is the kinematic one
+        coefficient = pressure_coefficient(float(law(0.0, at)))
+    why = "of mineral oils by their viscosity (Gold et al. 2001), a third either way; polyalphaolefins have 3/4 of it"
+    filling.give(f"{oil}.pressure_coefficient", f"{1e9 * coefficient:.3g} GPa^-1", why)
+
+
+def pressure_coefficient(kinematic: float) -> float:
+    """Return the pressure coefficient [1/Pa] of a mineral oil by its kinematic viscosity [m2/s] at p = 0.
+
+    0.9904 (nu / 1 mm2/s)^0.139 / 1e8 Pa: Gold, Schmidt, Dicke, Loos & Assmann, J. Synth. Lubr. 18 (2001) 51.
+    """
+    return 0.9904e-8 * (1e6 * kinematic) ** 0.139
+
+
+def _bodies(filling: _Filling) -> None:
+    """Set what a ball on a flat leaves out, and tracks where nothing changes from pass to pass."""
+    radius = filling.get("geometry.radius_x")
+    if filling.get("geometry.model") in (None, "point"):
+        filling.give("geometry.radius_y", radius or "1 m", "that of radius_x: a ball")
+    if any(map(filling.acts, _CHANGING)):
+        return
+    around = 2.0 * math.pi * (filling.number("geometry.radius_x", "m") or 1.0)
+    for body in (1, 2):
+        why = "a ball's circumference: without wear and tribofilm nothing is kept from pass to pass"
+        filling.give(f"geometry.track_length_{body}", f"{1e3 * around:.5g} mm", why, _NUMERICAL)
+
+
+def _duty(filling: _Filling) -> None:
+    """Set the duration of what does not change with time, and the time between rows."""
+    changes = any(map(filling.acts, _CHANGING)) or filling.has("heat.bulk")
+    if not changes and not filling.get("operation.steps") and not filling.get("operation.file"):
+        filling.give("operation.duration", _STEADY, "nothing changes with time", _NUMERICAL)
+    duration = filling.number("operation.duration", "s")
+    row = filling.get("operation.duration") if duration is not None and duration < parse(_ROW, "s", "") else _ROW
+    filling.give("operation.interval", row, "time between rows of the result", _NUMERICAL)

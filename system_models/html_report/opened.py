@@ -1,0 +1,212 @@
+"""A folder of results as a Run: finished, or as far as its checkpoint has come."""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from contact_core.errors import ContactError
+from contact_core.quantities import TABLE
+from contact_core.scene import Scene
+
+from ..machines.assembly import Assembly
+from ..machines.kind import Kind
+from ..machines.reading import ATTRIBUTE as MACHINE
+from ..machines.reading import assemble, from_attribute
+from ..machines.registry import KINDS
+from ..run.causes import ATTRIBUTE as ERRORS
+from ..run.causes import Causes, at_point
+from ..run.contact import communication_points
+from ..run.duty import Duty
+from ..run.fields import Fields
+from ..store.checkpoint import Checkpoint
+from ..store.results import to_dataset, with_half_widths
+
+_CONTACT = "contact."  # before the variables of a contact's checkpoint
+_OF_RUN = ("version", "duty", "fields")  # of its identity; the rest is the scene
+
+
+@dataclass(frozen=True)
+class Machine:
+    """The machine of a run, made again."""
+
+    kind: Kind
+    assembly: Assembly
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run to be shown."""
+
+    folder: Path
+    dataset: xr.Dataset  # with maps, if there are any
+    planned: float  # end of the run as it was asked for [s]
+    finished: bool
+    scene: Scene | None = None  # of a contact
+    scene_table: Mapping[str, Any] = field(default_factory=dict)  # nested, as in its file
+    machine: Machine | None = None
+    causes: Causes = field(default_factory=dict)  # half widths of the errors at the end, by output and cause
+    files: Mapping[str, str] = field(default_factory=dict)  # sha256 by name
+    notes: tuple[str, ...] = ()  # what could not be read, and what follows from it
+
+    @property
+    def title(self) -> str:
+        """One line on what was run."""
+        return str(self.dataset.attrs.get("title") or self.folder.name)
+
+    @property
+    def reached(self) -> float:
+        """Time reached [s]."""
+        return float(self.dataset.variables["time"].values[-1])
+
+    @property
+    def of_contact(self) -> bool:
+        """True if the run is one contact's."""
+        return bool(self.scene_table)
+
+    @property
+    def contacts(self) -> tuple[str, ...]:
+        """Names of the contacts; of one contact's run the empty name."""
+        if self.of_contact:
+            return ("",)
+        names = [str(name).rpartition(".")[0] for name in self.dataset.data_vars if str(name).endswith(".h_c")]
+        return tuple(sorted(names))
+
+    def of(self, contact: str, quantity: str) -> str:
+        """Return the name of a contact's variable."""
+        return f"{contact}.{quantity}" if contact else quantity
+
+
+def open_run(folder: Path) -> Run:
+    """Return the run in a folder: that of its checkpoint if this is newer than its result, else of the result.
+
+    Raises ContactError with a sentence if there is neither, or none that can be read.
+    """
+    result, checkpoint = folder / "result.nc", Checkpoint(folder, {}).file
+    if checkpoint.exists() and (not result.exists() or result.stat().st_mtime < checkpoint.stat().st_mtime):
+        run = _unfinished(folder)
+        older = ("The folder also has an older result.nc, of another run or an earlier one; it is not shown.",)
+        return replace(run, notes=(*run.notes, *(older if result.exists() else ())))
+    if not result.exists():
+        raise ContactError(
+            f"'{folder}' has neither a result.nc nor a checkpoint. Give the folder of --out of `tribofmu run`, such as "
+            "results/NAME."
+        )
+    return _finished(folder, result)
+
+
+def _finished(folder: Path, result: Path) -> Run:
+    try:
+        with xr.open_dataset(result, engine="h5netcdf", decode_times=False) as opened:
+            dataset = opened.load()
+    except (OSError, ValueError) as error:
+        raise ContactError(f"'{result}' cannot be read: {error}. Run it again.") from None
+    if "time" not in dataset.dims or not dataset.sizes["time"]:
+        raise ContactError(f"'{result}' has no rows along time, so it is not of `tribofmu run` or `tribofmu cosim`.")
+    dataset = dataset.assign_attrs({name: _plain(value) for name, value in dataset.attrs.items()})
+    files = {
+        name.name: _sha256(name) for name in (result, folder / "resolved.nc", folder / "corrected.nc") if name.exists()
+    }
+    run = Run(folder, dataset, float(dataset.variables["time"].values[-1]), True, files=files)
+    if "scene_json" in dataset.attrs:
+        found = json.loads(dataset.attrs.get(ERRORS, "{}"))
+        return _with_scene(replace(run, causes=found), json.loads(dataset.attrs["scene_json"]))
+    return _with_machine(run)
+
+
+def _plain(value: Any) -> Any:
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _sha256(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _with_scene(run: Run, table: dict[str, Any]) -> Run:
+    """Return the run with its scene, or with a note if the scene cannot be made again."""
+    try:
+        return replace(run, scene=Scene.from_dict(table), scene_table=table)
+    except ContactError as error:
+        note = f"The scene cannot be made again, so its laws are named without their sources. {error}"
+        return replace(run, scene_table=table, notes=(*run.notes, note))
+
+
+def _with_machine(run: Run) -> Run:
+    """Return the run with its machine, if it is of one and can be made again."""
+    text = run.dataset.attrs.get(MACHINE)
+    if text is None:
+        return run
+    try:
+        machine = from_attribute(text)
+        return replace(run, machine=Machine(KINDS[machine.kind], assemble(machine)))
+    except (ContactError, OSError, KeyError) as error:
+        note = f"The machine cannot be made again, so its own tables are left out. {error}"
+        return replace(run, notes=(*run.notes, note))
+
+
+def _unfinished(folder: Path) -> Run:
+    read = Checkpoint.read(folder)
+    assert read is not None and read[0].saved is not None  # the file is there, and `read` raises for a damaged one
+    checkpoint, about = read
+    if "settings" in about:
+        return _unfinished_system(folder, checkpoint, about)
+    table = {key: value for key, value in about.items() if key not in _OF_RUN}
+    attributes = {
+        "title": table["description"],
+        "scene": table["name"],
+        "scene_json": json.dumps(table),
+        "duty": about["duty"],
+        "tribofmu_version": about["version"],
+    }
+    run = _with_scene(Run(folder, xr.Dataset(), 0.0, False), table)
+    dataset = _rows(checkpoint, _CONTACT).assign_attrs(attributes)
+    if run.scene is None:
+        return replace(run, dataset=dataset, planned=float(dataset.variables["time"].values[-1]))
+    planned, found = run.scene.operation.duration, at_point(run.scene, checkpoint)
+    run = replace(run, dataset=dataset, planned=planned, causes=found)
+    return _with_maps(run, checkpoint, about) if checkpoint.kept else run
+
+
+def _with_maps(run: Run, checkpoint: Checkpoint, about: Mapping[str, Any]) -> Run:
+    """Return an unfinished run with the maps kept so far; without the duty's file their times are not known."""
+    assert run.scene is not None
+    try:
+        duty = Duty.of_scene(run.scene)
+        known = duty.fingerprint() == about["duty"]
+    except (ContactError, OSError):
+        known = False
+    if not known:
+        note = "The maps kept so far are not shown: the file of the duty, which says their times, is not here."
+        return replace(run, notes=(*run.notes, note))
+    points = communication_points(duty, run.scene.operation.duration, run.scene.operation.interval)
+    fields = Fields(run.scene, duty, points, int(about["fields"]))
+    fields.kept = checkpoint.kept
+    return replace(run, dataset=run.dataset.merge(fields.dataset(), combine_attrs="override"))
+
+
+def _unfinished_system(folder: Path, checkpoint: Checkpoint, about: Mapping[str, Any]) -> Run:
+    attributes = {"title": f"{folder.name}: unfinished simulation of a system", "simulation_json": json.dumps(about)}
+    dataset = _rows(checkpoint, "").assign_attrs(attributes)
+    return Run(folder, dataset, float(about["settings"]["stop_time"]), False)
+
+
+def _rows(checkpoint: Checkpoint, prefix: str) -> xr.Dataset:
+    """Return the rows of a checkpoint; units are those of the quantities of contacts, of others they are not known."""
+    assert checkpoint.saved is not None
+    rows = checkpoint.saved.rows
+    names = [name for name in rows.dtype.names or () if name != "time"]
+    shown = {name: name.removeprefix(prefix) for name in names}
+    known = {name: TABLE.get(shown[name].rpartition(".")[2]) for name in names}
+    return with_half_widths(
+        to_dataset(
+            rows["time"],
+            {shown[name]: rows[name] for name in names},
+            {shown[name]: quantity.unit if quantity else "SI" for name, quantity in known.items()},
+            {shown[name]: quantity.text if quantity else shown[name] for name, quantity in known.items()},
+        )
+    )

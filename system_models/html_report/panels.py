@@ -1,0 +1,158 @@
+"""Which quantities of a contact are drawn, in which words; both bodies in one chart."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from contact_core.quantities import TABLE
+
+from ..store.results import ERROR
+from .chart import Array, Chart, Line
+from .shown import Unit, time_unit, unit_for
+
+_ALL = slice(None)
+_CAPPED = 999.0  # lambda ratios from here on are at their cap, which says nothing
+
+
+class Panel(NamedTuple):
+    """A chart of a contact: quantities of one unit."""
+
+    title: str
+    quantities: tuple[str, ...]
+    labels: tuple[str, ...]
+    symbol: str  # on the axis
+    caption: str
+    downward: bool = False
+    share: bool = False  # from 0 to 1: an error relative to it says little
+
+
+def _bodies(title: str, name: str, symbol: str, caption: str, downward: bool = False) -> Panel:
+    return Panel(title, (f"{name}_1", f"{name}_2"), ("body 1", "body 2"), symbol, caption, downward)
+
+
+MAIN = (
+    Panel("Friction coefficient", ("friction_coefficient",), ("µ",), "µ", "Friction force over load."),
+    Panel(
+        "Central film thickness", ("h_c",), ("h_c",), "h_c",
+        "Mean gap over the inner two thirds of the Hertz contact, solids included where they touch.",
+    ),
+    Panel(
+        "Lambda ratio", ("lambda_ratio",), ("λ",), "λ",
+        "Film thickness over composite roughness of the rough, deformed contact. Limits of handbooks hold for the "
+        "lambda of smooth surfaces, not for this one.",
+    ),
+    Panel(
+        "Load carried by solids", ("contact_load_ratio",), ("W_c",), "W_c",
+        "Share of the load that touching asperities carry: 0 is a full film, 1 is dry.", share=True,
+    ),
+    _bodies("Tribofilm", "tribofilm", "thickness", "Mean thickness over the wear track of each body."),
+    _bodies("Wear depth", "wear_depth", "depth", "Mean depth over the wear track; the axis runs down.", True),
+)  # fmt: skip
+MORE = (
+    Panel("Real contact area", ("contact_area_ratio",), ("A_c",), "A_c", "Touching area over the Hertz area."),
+    _bodies("Roughness", "roughness", "Rq", "Root mean square roughness across the middle of the track."),
+    Panel("Largest pressure", ("pressure_max",), ("p_max",), "p_max", "At a single node of the grid."),
+    _bodies("Bulk temperature", "temperature", "temperature", "Of the bodies away from the contact."),
+    Panel(
+        "Flash temperature rise", ("flash_temperature_rise",), ("rise",), "rise",
+        "Mean rise in the real contact above the bodies.",
+    ),
+    Panel("Power loss", ("power_loss",), ("P",), "P", "Heat that friction makes."),
+    Panel(
+        "Scuffing ratio", ("scuffing_ratio",), ("S",), "S",
+        "Rise of the hottest spots over the rise at which scuffing is expected; above 1 there is a risk.",
+    ),
+    _bodies("Fatigue damage", "damage", "damage", "The material fails at 1."),
+    _bodies("Micropitted share of the track", "micropitted_area", "share", "Area that fatigue has broken out."),
+    Panel("Largest von Mises stress", ("von_mises_max",), ("stress",), "stress", "Below the surfaces."),
+    _bodies("Oxide", "oxide", "thickness", "Where no tribofilm covers the steel."),
+)  # fmt: skip
+DUTY = (
+    Panel("Load", ("load",), ("load",), "load", "As prescribed."),
+    Panel("Surface speeds", ("speed_1", "speed_2"), ("body 1", "body 2"), "speed", "Relative to the contact."),
+    Panel("Oil temperature", ("temperature",), ("temperature",), "temperature", "As prescribed."),
+)
+
+
+def charts(
+    dataset: xr.Dataset, panels: tuple[Panel, ...], contact: str, shaded: tuple[tuple[float, float], ...]
+) -> Iterator[Chart]:
+    """Yield the charts of a contact that have anything to show; what is zero throughout is left out."""
+    for panel in panels:
+        names = [f"{contact}.{name}" if contact else name for name in panel.quantities]
+        there = [name for name in names if name in dataset]
+        if any(np.nanmax(np.abs(values(dataset, name)), initial=0.0) > 0.0 for name in there) and _changes(
+            dataset, there
+        ):
+            yield chart(dataset, panel, there, shaded)
+
+
+def constants(dataset: xr.Dataset, panels: tuple[Panel, ...]) -> Iterator[str]:
+    """Yield the quantities of a contact that do not change and are not zero, with their values, in words."""
+    for panel in panels:
+        for name, label in zip(panel.quantities, panel.labels, strict=True):
+            if name not in dataset or _changes(dataset, [name]) or not values(dataset, name)[-1]:
+                continue
+            unit = unit_of(dataset, [name], name)
+            who = f" of {label}" if len(panel.quantities) > 1 else ""
+            yield f"{panel.title.lower()}{who} = {float(unit.of(values(dataset, name)[-1])):.4g} {unit.name}".rstrip()
+
+
+def _changes(dataset: xr.Dataset, names: list[str]) -> bool:
+    """Return True if a variable changes, or has an error band, along a result of some rows."""
+    return any(
+        dataset.sizes["time"] < 2
+        or np.ptp(dataset.variables[name].values) > 0.0
+        or f"{name}{ERROR}" in dataset.variables
+        for name in names
+    )
+
+
+def chart(dataset: xr.Dataset, panel: Panel, names: list[str], shaded: tuple[tuple[float, float], ...] = ()) -> Chart:
+    """Return one chart against time, with the bands that the result has; `shaded` are spans of time [s]."""
+    clock = time_unit(float(dataset.variables["time"].values[-1]))
+    unit = unit_of(dataset, names, panel.quantities[0])
+    lines = [
+        Line(
+            label,
+            clock.of(dataset.variables["time"].values),
+            unit.of(values(dataset, name)),
+            band(dataset, name, unit),
+            place,
+        )
+        for place, (name, label) in enumerate(zip(names, panel.labels, strict=False))
+    ]
+    at = tuple((float(clock.of(begin)), float(clock.of(end))) for begin, end in shaded)
+    return Chart(
+        panel.title,
+        f"time {clock.label}",
+        f"{panel.symbol} {unit.label}",
+        lines,
+        panel.caption,
+        at,
+        from_zero=unit.offset == 0.0,
+        downward=panel.downward,
+    )
+
+
+def unit_of(dataset: xr.Dataset, names: list[str], quantity: str, rows: slice = _ALL) -> Unit:
+    """Return the unit in which variables of the same quantity are read, by some of their rows."""
+    largest = np.concatenate([values(dataset, name)[rows] for name in names])
+    known = TABLE.get(quantity)
+    return unit_for(dataset.variables[names[0]].attrs.get("units", "1"), largest, bool(known and known.relative))
+
+
+def values(dataset: xr.Dataset, name: str) -> Array:
+    """Return a variable against time in SI; lambda ratios at their cap are not known."""
+    found = np.asarray(dataset.variables[name].values, dtype=float)
+    return np.where(found > _CAPPED, np.nan, found) if name.endswith("lambda_ratio") else found
+
+
+def band(dataset: xr.Dataset, name: str, unit: Unit) -> Array | None:
+    """Return the half width of a variable's error band in a unit, if the result has it."""
+    stated = f"{name}{ERROR}"
+    return (
+        unit.factor * np.asarray(dataset.variables[stated].values, dtype=float) if stated in dataset.variables else None
+    )

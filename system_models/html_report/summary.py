@@ -1,0 +1,145 @@
+"""The first section: what was run, the end values with their errors, and what to think of them."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from .markup import Raw, paragraph, section, table, text
+from .opened import Run
+from .panels import MAIN, Panel, band, unit_of, values
+from .shown import Unit, stated, time_unit
+from .trust import CAUSES, invalid, marked, raised, why_invalid
+
+_LARGE = 0.2  # relative half width from which an end value is called uncertain
+_MOST = 12  # contacts listed
+
+
+def summary(run: Run) -> str:
+    """Return the section."""
+    body = _cards(run) if run.of_contact else _of_contacts(run)
+    return section("summary", "At a glance", _span(run), _conditions(run), body, _verdict(run))
+
+
+def _span(run: Run) -> str:
+    clock = time_unit(max(run.reached, run.planned))
+    reached, planned = (f"{float(clock.of(each)):.4g} {clock.name}" for each in (run.reached, run.planned))
+    if run.finished:
+        return paragraph(f"{run.dataset.sizes['time']} rows from 0 to {reached}.")
+    return paragraph(
+        f"UNFINISHED: this run was interrupted, or is at work, at {reached} of {planned}. All that follows holds up to "
+        "there. The same command with --resume continues it, to the same result, bit for bit.",
+        "bad",
+    )
+
+
+def _conditions(run: Run) -> str:
+    """Return a line on what a contact was under, as it was run, and on its level."""
+    if run.scene is None:
+        return ""
+    scene, point = run.scene, run.scene.operation.point
+    pressure = scene.hertz(point.load).pressure_max if point.load > 0.0 else 0.0
+    roll = abs(point.entrainment_speed)
+    parts = [
+        f"load {point.load:.4g} N, {pressure / 1e9:.3g} GPa Hertz pressure",
+        f"entrainment {roll:.4g} m/s",
+        *([f"slide-to-roll ratio {(point.speed_1 - point.speed_2) / point.entrainment_speed:.2%}"] if roll else []),
+        f"oil at {point.temperature - 273.15:.4g} °C",
+    ]
+    changing = " at the start of its duty" if len(scene.operation.steps) or scene.operation.file else ""
+    return paragraph(f"{scene.name}, as it was run{changing}: {', '.join(parts)}; level {scene.film.name}.")
+
+
+def _end(run: Run, panel: Panel, contact: str) -> Iterator[tuple[str, float, float | None, Unit]]:
+    """Yield label, value and half width of a panel's quantities at the end, in the unit people read, and this unit."""
+    for name, label in zip(panel.quantities, panel.labels, strict=True):
+        full = run.of(contact, name)
+        if full in run.dataset:
+            last = values(run.dataset, full)[-1:]
+            unit = unit_of(run.dataset, [full], name, slice(-1, None))
+            half = band(run.dataset, full, unit)
+            yield label, float(unit.of(last)[0]), None if half is None else float(half[-1]), unit
+
+
+def _cards(run: Run) -> str:
+    """Return the end values as cards."""
+    cards = []
+    for panel in MAIN:
+        lines = [
+            f'<p><span class="value">{text(stated(value, half))}</span> {text(unit.name)}'
+            + (f' <span class="who">{text(label)}</span>' if len(panel.quantities) > 1 else "")
+            + "</p>"
+            for label, value, half, unit in _end(run, panel, "")
+        ]
+        if lines:
+            cards.append(f"<div><h3>{text(panel.title)}</h3>{''.join(lines)}</div>")
+    note = paragraph(
+        "At the end; ± is the half width of a 95 % interval by all causes that the model knows of.", "quiet"
+    )
+    return f'<div class="cards">{"".join(cards)}</div>{note}'
+
+
+def _of_contacts(run: Run) -> str:
+    """Return the end values of the contacts of a machine, those with the least lambda ratio first."""
+    if not run.contacts:
+        return ""
+    ratio = {name: float(run.dataset.variables[run.of(name, "lambda_ratio")].values[-1]) for name in run.contacts}
+    ordered = sorted(run.contacts, key=lambda name: ratio[name])[:_MOST]
+    rows = []
+    for contact in ordered:
+        cells: list[object] = [contact]
+        for panel in MAIN:
+            found = list(_end(run, panel, contact))
+            cells.append(Raw("<br>".join(text(f"{stated(v, h)} {u.name}".rstrip()) for _, v, h, u in found) or "–"))
+        rows.append(cells)
+    more = f" {len(run.contacts) - len(rows)} more are below." if len(run.contacts) > len(rows) else ""
+    caption = f"Contacts at the end, the least lambda ratio first; of tribofilm and wear body 1 over body 2.{more}"
+    return table(["contact", *(panel.title for panel in MAIN)], rows, "numbers", caption)
+
+
+def _verdict(run: Run) -> str:
+    """Return what to think of the numbers, as a list."""
+    items = [*_of_notes(run), *_of_rows(run), *_of_flags(run), *_of_errors(run)]
+    rows = "".join(f'<li class="{kind}">{text(words)}</li>' for kind, words in items)
+    return f'<h3>What to think of it</h3><ul class="verdict">{rows}</ul>'
+
+
+def _of_notes(run: Run) -> Iterator[tuple[str, str]]:
+    for note in run.notes:
+        yield "warn", note
+
+
+def _of_rows(run: Run) -> Iterator[tuple[str, str]]:
+    spoiled = invalid(run)
+    if spoiled:
+        yield "bad", f"Some rows are not valid, the first at {spoiled[0][1]:g} s: {why_invalid(run)}."
+    else:
+        yield "good", f"All {run.dataset.sizes['time']} rows could be computed."
+
+
+def _of_flags(run: Run) -> Iterator[tuple[str, str]]:
+    rows = run.dataset.sizes["time"]
+    for flag, contacts in raised(run).items():
+        count = int(marked(run, flag, contacts).sum())
+        where = [] if run.of_contact else [f"{len(contacts)} of {len(run.contacts)} contacts"]
+        where += ["throughout" if count == rows else f"in {count} of {rows} rows"]
+        yield "warn", f"{flag.text[0].upper()}{flag.text[1:]} ({', '.join(where)})."
+
+
+def _of_errors(run: Run) -> Iterator[tuple[str, str]]:
+    """Yield a sentence on each main output that is uncertain, with its main cause where it is known."""
+    for panel in MAIN:
+        worst, main = 0.0, ""
+        for contact in run.contacts:
+            for name, (_, value, half, _) in zip(panel.quantities, _end(run, panel, contact), strict=False):
+                relative = half / abs(value) if half is not None and value and np.isfinite(value) else 0.0
+                if relative > max(worst, _LARGE):
+                    where = "" if run.of_contact else f" in contact {contact}"
+                    worst, main = relative, f"{where}{_main_cause(run, name)}"
+        if worst and not panel.share:
+            yield "warn", f"{panel.title} is uncertain by {worst:.0%}{main}: do not read more into its digits."
+
+
+def _main_cause(run: Run, name: str) -> str:
+    """Return the largest cause of an output's error in words."""
+    parts = run.causes.get(name)
+    return f", mostly by {CAUSES[max(parts, key=lambda cause: parts[cause])]}" if parts else ""

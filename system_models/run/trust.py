@@ -1,0 +1,227 @@
+"""What to trust of a run: lines before it on the contact, and after it on columns, errors and limits."""
+
+import math
+import shutil
+import textwrap
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from contact_core.quantities import UNSOLVED
+from contact_core.scene import Case, OperatingPoint, Scene
+from contact_core.state import Error
+
+from . import flags
+from .duty import Duty
+
+_MOST_POINTS = 200  # of a duty that are looked at
+_MIXED, _FULL = 1.0, 3.0  # lambda of handbooks, from which on lubrication is called mixed, and full film
+_FEW = 8.0  # nodes across the contact, below which RangeFlag.FEW_NODES is raised
+_WIDE, _WAVES = 5.0, 8.0  # half widths of the contact and correlation lengths, that a domain should have
+_ROUND = 0.01  # relative difference of half widths, up to which one is told
+_POOR, _UNKNOWN = 0.35, 1.0  # relative half widths from which on a quantity is known roughly, and hardly at all
+_SHORT, _LONG = 60, 120  # columns of text
+
+_LEGEND = {  # heading of the table: its meaning
+    "h_c": "mean film over the inner 2/3 of the contact",
+    "lambda": "h_c / present roughness, not that of handbooks",
+    "tribofilm, wear": "means over the track of body 1, 2",
+    "A_c, W_c": "the solids' share of Hertz's area, of the load",
+}
+_NAMES = {  # of an output with a stated error: in words
+    "friction_coefficient": "friction",
+    "h_c": "film",
+    "contact_load_ratio": "W_c",
+    "tribofilm": "tribofilm",
+    "wear_depth": "wear",
+    "damage": "damage",
+}
+_ABSOLUTE = {"contact_load_ratio"}
+_CAUSES = {
+    "time": "the time steps",
+    "sampling": "the few instants solved",
+    "grid": "the grid",
+    "iteration": "solutions that stop early",
+    "curves": "the fitted curves",
+}
+
+
+def before(scene: Scene, duty: Duty) -> list[str]:
+    """Return lines on the contact of a duty: pressure, size, motion, film of smooth bodies, regime, grid."""
+    cases = [Case.bind(scene, op) for op in _some(duty.points) if op.load > 0.0]
+    if not cases:
+        return ["Contact: no load, the bodies just touch."]
+    return [
+        line for text in (_contact(cases), _motion(cases), _film(cases), *_grid(scene, cases)) for line in wrapped(text)
+    ]
+
+
+def _some(points: Sequence[OperatingPoint]) -> list[OperatingPoint]:
+    """Return at most so many different points, evenly spread, with those of least and most load and speed."""
+    different = list(dict.fromkeys(points))
+    step = max(1, math.ceil(len(different) / _MOST_POINTS))
+    ends = (f(different, key=key) for f in (min, max) for key in (_load, _speed))
+    return [*different[::step], *ends]
+
+
+def _load(op: OperatingPoint) -> float:
+    return op.load
+
+
+def _speed(op: OperatingPoint) -> float:
+    return abs(op.entrainment_speed)
+
+
+def _contact(cases: Sequence[Case]) -> str:
+    shapes = [case.hertz for case in cases]
+    size = f"half width {_span((1e6 * h.a for h in shapes), 'um')}"
+    if not cases[0].shape.periodic and any(abs(h.b / h.a - 1.0) > _ROUND for h in shapes):
+        along, across = (_span(1e6 * getattr(h, axis) for h in shapes) for axis in "ab")
+        size = f"half widths {along} um along, {across} um across"
+    largest, mean = (_span(1e-9 * getattr(h, name) for h in shapes) for name in ("pressure_max", "pressure_mean"))
+    return f"Contact: Hertz pressure {largest} GPa (mean {mean} GPa), {size}."
+
+
+def _motion(cases: Sequence[Case]) -> str:
+    ratios = [100.0 * case.op.sliding_speed / case.op.entrainment_speed for case in cases if case.entrained]
+    slides = f"slide-to-roll ratio {_span(ratios, '%')}" if ratios else "which brings no oil in"
+    return f"Motion: entrainment speed {_span((case.op.entrainment_speed for case in cases), 'm/s')}, {slides}."
+
+
+def _film(cases: Sequence[Case]) -> str:
+    films = [case.conventional_film for case in cases]
+    rough = math.hypot(*(side.surface.rms for side in cases[0].sides))
+    if not any(films):
+        return "Film: none by formula, as nothing brings oil in: dry contact."
+    text = f"Film: {_span((1e9 * film for film in films), 'nm')} by formula for smooth bodies"
+    if rough == 0.0:
+        return f"{text}, as these are: full film."
+    ratios = [film / rough for film in films]
+    return (
+        f"{text}; roughness {1e9 * rough:.3g} nm; so lambda of handbooks is {_span(ratios)}: by its limits "
+        f"{_regime(min(ratios), max(ratios))}."
+    )
+
+
+def _regime(least: float, most: float) -> str:
+    """Return the lubrication regime in a word, or from one to another."""
+    first, last = (_word(ratio) for ratio in (least, most))
+    return first if first == last else f"{first} to {last}"
+
+
+def _word(ratio: float) -> str:
+    if ratio < _MIXED:
+        return "boundary lubrication"
+    return "mixed lubrication" if ratio < _FULL else "full film"
+
+
+def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
+    """Return a line on a grid that is too coarse for the contact, with the way out."""
+    least, most = (f(case.hertz.a for case in cases) for f in (min, max))
+    nodes = 2.0 * least / scene.film.spacing
+    if scene.film.name in UNSOLVED or nodes >= _FEW:
+        return []
+    wide = max(_WIDE * most, _WAVES * max(side.surface.length for side in cases[0].sides))
+    finer = (
+        f"a smaller domain, such as --set film.domain='{1e3 * wide:.2g} mm'"
+        if wide < 0.5 * scene.film.domain
+        else f"--grid {2 ** math.ceil(math.log2(_FEW * scene.film.domain / least)) + 1}"
+    )
+    return [f"Grid: {nodes:.1f} nodes across the contact; below {_FEW:g} the film is one of the grid. Take {finer}."]
+
+
+def legend() -> list[str]:
+    """Return what the columns of the table are."""
+    columns = "; ".join(f"{heading}: {meaning}" for heading, meaning in _LEGEND.items())
+    return wrapped(f"Columns: {columns}; +-: error (95 %).")
+
+
+def after(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> list[str]:
+    """Return lines on the flags raised, with their quantities, and a verdict.
+
+    `errors` are those of the last state by `contact_core.uncertainty`; empty if that is not known.
+    """
+    return wrapped(*flags.sentences(scene, dataset), _verdict(scene, dataset, errors))
+
+
+def _verdict(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> str:
+    """Return what is known how well at the end, and what would make it surer."""
+    valid, total = dataset["valid"].values, dataset.sizes["time"]
+    if not valid.all():
+        first = float(dataset["time"].values[~valid][0])
+        return (
+            f"Verdict: {int((~valid).sum())} of {total} rows are INVALID, the first at {first:g} s; their outputs "
+            "stand as they were before."
+        )
+    known: dict[str, list[str]] = {}
+    for word, half, error, absolute in _stated(dataset, errors):
+        known.setdefault(_cause(error), []).append(_known(word, half, absolute))
+    if not known:
+        return f"Verdict: all {total} rows were computed; no errors are stated."
+    parts = [f"{', '.join(words)}{cause and f' ({cause})'}" for cause, words in known.items()]
+    return f"Verdict: known at the end: {'; '.join(parts)}. {_way_out(scene)}".rstrip()
+
+
+def _stated(dataset: xr.Dataset, errors: Mapping[str, Error]) -> list[tuple[str, float, Error | None, bool]]:
+    """Return words, half width, its causes and True if absolute; of the body whose is larger."""
+    last, found = dataset.isel(time=-1), []
+    for name, word in _NAMES.items():
+        outputs = [each for each in (name, f"{name}_1", f"{name}_2") if f"{each}_error" in last.coords]
+        halves = {each: half for each in outputs if (half := _half(last, each, name in _ABSOLUTE)) is not None}
+        if halves:
+            worst = max(halves, key=halves.__getitem__)
+            found.append((word, halves[worst], errors.get(worst), name in _ABSOLUTE))
+    return found
+
+
+def _half(last: xr.Dataset, name: str, absolute: bool) -> float | None:
+    """Return the half width of an output's error, relative or absolute; None of an output that is zero."""
+    half, value = float(last[f"{name}_error"]), abs(float(last[name]))
+    if absolute:
+        return half
+    return half / value if value > 0.0 else None
+
+
+def _known(word: str, half: float, absolute: bool) -> str:
+    """Return how well an output is known."""
+    if absolute:
+        return f"{word} to +- {half:.2g}"
+    if not math.isfinite(half):
+        return f"{word} not at all"
+    percent = f"{100.0 * half:.2g} %" if half < _UNKNOWN else f"a factor of {1.0 + half:.2g}"
+    return f"{word} {'only ' if half > _POOR else ''}to {percent}"
+
+
+def _cause(error: Error | None) -> str:
+    """Return the cause of most of an error in words; empty if it is not known."""
+    if error is None or error.together == 0.0:
+        return ""
+    name, half = max(error._asdict().items(), key=lambda item: item[1])
+    others = math.sqrt(max(error.together**2 - half**2, 0.0))
+    return _CAUSES[name] if half > 2.0 * others else f"mostly {_CAUSES[name]}"
+
+
+def _way_out(scene: Scene) -> str:
+    if scene.film.name in UNSOLVED:
+        return "Surer: --set film.model=auto or deterministic."
+    return "" if scene.control.accuracy else "Surer: --accuracy 5%."
+
+
+def width() -> int:
+    """Return the characters of a line: those of the terminal, within reason."""
+    return min(max(shutil.get_terminal_size((_LONG, 24)).columns, _SHORT), _LONG)
+
+
+def wrapped(*texts: str) -> list[str]:
+    """Return paragraphs as lines of at most `width` characters, all but the first one of each indented."""
+    how: dict[str, Any] = {"subsequent_indent": "  ", "break_long_words": False, "break_on_hyphens": False}
+    return [line for text in texts for line in textwrap.wrap(text, width(), **how)]
+
+
+def _span(values: Iterable[float], unit: str = "") -> str:
+    """Return a value, or the range of several, as text with a unit."""
+    found = np.array(list(values), dtype=float)
+    ends = list(dict.fromkeys(f"{end:.3g}" for end in (found.min(), found.max())))
+    return " to ".join(ends) + (f" {unit}" if unit else "")

@@ -1,0 +1,71 @@
+"""A progress bar that moves while nothing is finished."""
+
+import threading
+
+import pytest
+
+from contact_core.progress import ALGORITHM, tell
+from system_models.cli import alive
+
+
+class Bar:
+    """Keeps what a bar is told to show."""
+
+    def __init__(self, wanted: str) -> None:
+        self.shown: list[str] = []
+        self.wanted, self.seen = wanted, threading.Event()
+
+    def set_postfix_str(self, text: str, refresh: bool) -> None:
+        self.shown.append(text)
+        if text == self.wanted:
+            self.seen.set()
+
+
+@pytest.fixture(autouse=True)
+def often(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(alive, "_EVERY_IN_A_FILE", 0.01)
+    monkeypatch.setattr(alive, "_EVERY", 0.01)
+
+
+def test_the_bar_shows_what_is_being_solved_and_forgets_it_at_the_end() -> None:
+    bar = Bar("instant 3 of 35, algorithm 2 of 4")
+    with alive.alive(bar):
+        tell("instant", 3, 35)
+        tell(ALGORITHM, 2, 4)
+        assert bar.seen.wait(10.0)
+    assert bar.shown[-1] == ""
+
+
+def test_kernels_that_compile_are_told() -> None:
+    from numba import njit
+
+    begun, go_on = threading.Event(), threading.Event()
+    bar = Bar("compiling kernels, once after installation: 0 so far")
+    with alive.alive(bar):
+        from numba.core import event
+
+        class Halt(event.Listener):
+            def on_start(self, event: object) -> None:
+                begun.set()
+                go_on.wait(10.0)
+
+            def on_end(self, event: object) -> None:
+                pass
+
+        with event.install_listener("numba:compile", Halt()):
+            thread = threading.Thread(target=lambda: njit(lambda x: x + 1)(1))
+            thread.start()
+            assert begun.wait(10.0)
+            assert bar.seen.wait(10.0)
+            go_on.set()
+            thread.join()
+
+
+def test_time_left_is_estimated_from_the_parts_done(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = [100.0]
+    monkeypatch.setattr(alive, "monotonic", lambda: clock[0])
+    doing = alive._Doing()
+    for number, now in ((1, 100.0), (2, 102.0), (5, 108.0)):
+        clock[0] = now
+        doing.told("instant", number, 8)
+    assert doing.text() == "instant 5 of 8, about 8 s left of them"

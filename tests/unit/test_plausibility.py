@@ -1,0 +1,57 @@
+"""Numbers that look like mistakes are doubted, with the way out; those of the shipped scenes are not."""
+
+import pytest
+
+from contact_core import Scene, SceneError, shipped_scenes
+
+
+@pytest.mark.parametrize("name", shipped_scenes())
+def test_no_shipped_scene_is_doubted(name):
+    assert Scene.from_toml(name).doubts() == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        (
+            {"surface_2.rq": "20 um"},
+            ["surface_2 has an rms slope of 5", "correlation length of 8e-06 m", "right unit (nm, um)?"],
+        ),
+        (
+            {"surface_2.rq": "0.1 mm"},
+            ["surface_2 has 0.0001 m rms", "presses smooth bodies together by 2.3e-06 m only", "right unit (nm, um)?"],
+        ),
+        (
+            {"operation.speed_2": "-0.0975 m/s"},
+            ["speed_2 = -0.0975 m/s are against each other", "ratio is +8000 %", "0.0025 m/s draw oil in"],
+        ),
+        ({"operation.speed_2": "-0.1025 m/s"}, ["ratio is infinite"]),
+        (
+            {"operation.load": "0.1 N", "operation.speed_1": "90 m/s", "operation.speed_2": "90 m/s"},
+            ["operation: the film of smooth bodies would be", "thick in a contact only", "in the right units?"],
+        ),
+    ],
+)
+def test_a_likely_mistake_is_doubted_with_the_way_out(changes, said):
+    doubts = " ".join(Scene.from_toml("mtm_zddp", changes).doubts())
+    for words in said:
+        assert words in doubts
+
+
+def test_the_steps_of_a_duty_are_doubted_too():
+    table = Scene.from_toml("mtm_zddp").to_dict()
+    table["operation"]["steps"] = [{"time": "60 s", "speed_2": "-0.1 m/s"}]
+    (doubt,) = Scene.from_dict(table).doubts()
+    assert doubt.startswith("operation.steps[0].speed_1 = 0.1025 m/s and speed_2 = -0.1 m/s")
+
+
+@pytest.mark.parametrize("speed", ["0 m/s", "-0.03 m/s"])  # a body at rest; a cam's follower that turns back
+def test_bodies_at_rest_and_slow_counter_motion_are_no_mistakes(speed):
+    assert Scene.from_toml("mtm_zddp", {"operation.speed_2": speed}).doubts() == []
+
+
+def test_a_refusal_that_follows_from_an_impossible_roughness_names_that_first():
+    with pytest.raises(SceneError) as refusal:
+        Scene.from_toml("mtm_zddp", {"surface_2.rq": "0.1 mm", "surface_2.correlation_length": "4 mm"})
+    said = str(refusal.value)
+    assert said.index("surface_2 has 0.0001 m rms") < said.index("too long for film.domain")
