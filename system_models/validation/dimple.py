@@ -4,7 +4,6 @@ import numpy as np
 
 from contact_core import Scene, initial_state, march
 from contact_core.deterministic.transient import rolled
-from contact_core.film.deterministic import Deterministic
 
 from .model import Array, Comparison, Curve, Kind, Outcome, Row, exactly, relative, rounding
 from .tables import read
@@ -21,11 +20,11 @@ Profiles = dict[int, tuple[Array, Array]]
 def rolling(points: int) -> Profiles:
     """Return x and gap [m] along the centre line, by profile, when the dimple is nearest to where it was measured."""
     scene = Scene.from_toml("dimple_rolling", {"film.points": str(points)})
-    assert isinstance(scene.film, Deterministic)
     domain, op = scene.film.domain, scene.operation.point
+    spacing = domain / (points - 1)
     first = -0.45 * domain  # the dimple lies in the middle of its patch
     begin = rolled(scene, initial_state(scene), (0.0, first))
-    times = np.arange(0.0, (0.9 * domain) / op.speed_2, scene.film.spacing / op.speed_2)
+    times = np.arange(0.0, (0.9 * domain) / op.speed_2, spacing / op.speed_2)
     best: dict[int, tuple[float, Array, Array]] = {}
     for moment in march(scene, begin, lambda _: op, times.tolist()):
         where = first + op.speed_2 * moment.time

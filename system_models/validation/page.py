@@ -54,13 +54,14 @@ different evidence: see each heading.</p>
 
 def _section(name: str, comparison: Comparison, outcome: Outcome) -> str:
     source = re.sub(r"doi:(10\.[^\s,;]+)", r'<a href="https://doi.org/\1">doi:\1</a>', html.escape(comparison.source))
+    about = re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape(comparison.about))
     licence = f" Numbers shipped under: {html.escape(comparison.licence)}." if comparison.licence else ""
     drawn = picture.curves(outcome)
     heads = "".join(f"<th>{heading}</th>" for heading in (*HEADINGS, "allowed because of"))
     table = f"<table><tr>{heads}</tr>{''.join(map(_row, outcome.rows))}</table>" if outcome.rows else ""
     failure = f"<p>cannot be computed: {html.escape(outcome.failure)}</p>" if outcome.failure else ""
     return f"""<h2 id="{name}">{html.escape(comparison.title)}: {outcome.verdict}</h2>
-<p class="about"><b>{comparison.kind}</b>, <code>tribofmu validate {name}</code>. {html.escape(comparison.about)}<br>
+<p class="about"><b>{comparison.kind}</b>, <code>tribofmu validate {name}</code>. {about}<br>
 Source: {source}.{licence}</p>
 {failure}{table}{_image(drawn, comparison.title) if drawn else ""}"""
 
