@@ -68,11 +68,11 @@ def _case_a(run: Run) -> list[Row]:
     return [
         Row(
             "figure 5-8: film of the ball established", "min", (8.0, 25.0), minute_of(ball, 1.0), 0.0,
-            '"in about 20 min": its largest value between 8 and 25 min',
+            "in about 20 min: its largest value between 8 and 25 min",
         ),
         Row(
             "figure 5-8: largest over last film of the ball", "", (1.2, np.inf), float(ball.max() / ball[-1]), 0.0,
-            '"strong overshoot": 1.2 or more',
+            "strong overshoot: 1.2 or more",
         ),
         Row(
             "figure 5-9: the same of the disc over that of the ball", "", (0.0, 1.0),
@@ -80,7 +80,7 @@ def _case_a(run: Run) -> list[Row]:
         ),
         Row(
             "figure 5-9: covered share, disc less ball", "", (-1.0, -0.05),
-            float((run["coverage_2"] - run["coverage_1"]).mean()), 0.0, '"coverage low": 0.05 below the ball',
+            float((run["coverage_2"] - run["coverage_1"]).mean()), 0.0, "coverage low: 0.05 below the ball",
         ),
         Row(
             "figure 6-4: h_c after 2 h", "nm", exactly(18.0), 1e9 * run.end("h_c"), 0.3 * 18.0,
@@ -101,11 +101,11 @@ def _case_a(run: Run) -> list[Row]:
         Row(
             "figures 7-3, 7-4: wear depth, ball over disc", "", exactly(3.8),
             run.end("wear_depth_1") / run.end("wear_depth_2"), 0.15 * 3.8,
-            '15 %: "almost 4 times", the ratio of load cycles is 3.8',
+            "15 %: almost 4 times, the ratio of load cycles is 3.8",
         ),
         Row(
             "figure 7-3: wear depth of the ball at SRR -10 % over that at -2 %", "", exactly(1.0),
-            faster.end("wear_depth_1") / run.end("wear_depth_1"), 0.1, '10 %: "hardly apart"',
+            faster.end("wear_depth_1") / run.end("wear_depth_1"), 0.1, "10 %: hardly apart",
             cause=Cause(
                 "Archard's wear by u_1 - u_2 grows with the sliding distance, five times as long; by each body's own "
                 f"speed it is as the thesis shows ({PAGE}, 7.3)", 3.0, 5.0,
@@ -132,7 +132,7 @@ def _case_b(run: Run) -> list[Row]:
         ),
         Row(
             "figure 5-14, 80 degC: 90 % of the film of the ball", "min", (30.0, STEPS * STEP / 60.0),
-            minute_of(ball, LATE), 0.0, '"steady growth over a longer period": after 30 min',
+            minute_of(ball, LATE), 0.0, "steady growth over a longer period: after 30 min",
             cause=Cause(
                 f"the printed constants: a point that is always rubbed takes {always:g} min by the thesis's own "
                 f"equation; with a dose by contact length it is 71 min ({PAGE}, 5.18)", always - 1.0, 30.0,
