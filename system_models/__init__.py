@@ -7,6 +7,7 @@ Each package imports only from those below it:
     check/      checks any FMU: a verdict per rule
     machines/   kinds of machines, a folder each: ball on disc, ball bearing, gear pair, cam and follower
     sweep/      many runs of one scene: plan, points, sensitivity, report
+    validation/ answers beside measurements, published numbers, closed forms and a thesis
     explain/    what a scene is made of: laws, numbers and their sources
     run/        one contact through its duty, Stribeck curves, and what simulations report
     master/     couples any FMUs and controls its own error

@@ -12,12 +12,13 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.film.measured import BALL, DENSITY, MODULUS, read
 from benchmarks.pages import Page
 from contact_core import Scene, advance, initial_state
 from system_models.run import fit_data, fit_report
 from system_models.run.fit import Fit, fit
 from system_models.run.fit_model import constants_of
+from system_models.validation.optical_films import BALL, DENSITY, MODULUS
+from system_models.validation.tables import read
 
 CELSIUS = (60.0, 80.0, 100.0)
 MINUTES = (2.0, 5.0, 10.0, 20.0, 35.0, 60.0, 90.0, 120.0)
@@ -185,7 +186,7 @@ def measured_films(page: Page, folder: Path) -> None:
     constants = constants_of(scene, [COEFFICIENT], ["h_c"])
     page.say("### 21 measured films")
     page.say(
-        "Central films of a steel ball on glass from 5 mm/s to 4 m/s with their standard deviations (benchmarks/data/README.md), fitted by "
+        "Central films of a steel ball on glass from 5 mm/s to 4 m/s with their standard deviations (system_models/validation/data/README.md), fitted by "
         "the oil's pressure coefficient at the film's temperature, which was not given. Seven of them are held back, by other "
         "random choices. What the formula of the film and that of inlet heating miss is scatter in proportion to the film. Mineral oils have 20 to "
         "30 1/GPa: the constant takes up the error of the formula, whose stated 16 % of the film are 30 % of it."

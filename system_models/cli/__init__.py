@@ -14,6 +14,7 @@
     fit         fit: constants of a scene from measured numbers
     log         log: a duty and data of a rig's text log
     map         map: a scene's map for film.model = "map"
+    validate    validate: verdicts against measurements and published numbers
     build       build: the FMU of a scene
     check       check: verdicts on an FMU
     cosim       cosim: a system of FMUs

@@ -30,6 +30,7 @@ from . import (
     surface_file,
     surfaces,
     sweep,
+    validate,
 )
 from . import map as mapping
 from .pages import page_of
@@ -61,6 +62,7 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "log": (log, "make a duty and data to fit of a test rig's text log"),
     "map": (mapping, "make the map of a scene for film.model = 'map', by solved contacts"),
     "build": (build, "build the FMU of a scene, for another tool"),
+    "validate": (validate, "compare answers with measurements, published numbers and closed forms"),
     "check": (check, "give a verdict per rule on any FMU"),
     "cosim": (cosim, "simulate a system of FMUs"),
     "completion": (completion, "print a script with which a shell completes all this"),

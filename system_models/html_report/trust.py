@@ -47,7 +47,7 @@ _REMEDY = {  # of a flag; the quantities that show by how much
     ),
     RangeFlag.BY_THE_CLOCK: ("Use tribofilm.dose = 'residence'.", ()),
     RangeFlag.SCUFFING: ("Lower load, sliding or oil temperature.", ("scuffing_ratio",)),
-    RangeFlag.WORN_SHAPE: ("Use film.model = 'deterministic', which wears the shape.", ("wear_depth_1", "wear_depth_2")),
+    RangeFlag.WORN_SHAPE: ("Use film.model = 'deterministic'.", ("wear_depth_1", "wear_depth_2")),
     RangeFlag.PITTED: ("Trust the onset more than the growth.", ("micropitted_area_1", "micropitted_area_2")),
 }  # fmt: skip
 _WORDS = {

@@ -1,21 +1,15 @@
 """Films against measurements: central films by interferometry, and a dimple that crosses a contact."""
 
 import numpy as np
-import pytest
 
-from benchmarks.film import measured
-from benchmarks.film.measured import errors, films, rolling
-
-
-@pytest.fixture
-def every_fourth(monkeypatch):
-    rows = measured.read("optical_films.csv")[::4]
-    monkeypatch.setattr(measured, "read", lambda _: rows)
+from system_models.validation.dimple import errors, rolling
+from system_models.validation.optical_films import films
+from system_models.validation.tables import read
 
 
-def test_central_films_follow_the_measured_ones_over_three_decades_of_speed(every_fourth):
+def test_central_films_follow_the_measured_ones_over_three_decades_of_speed():
     """On 65 nodes; by the plain flow the thinnest film would be a tenth of the measured one."""
-    found = films(22e-9, 65)
+    found = films(22e-9, 65, read("optical_films.csv")[::4])
     expected, slope = found.slopes()
     factor, scatter, least = found.factor()
     assert abs(slope - expected) < 0.04

@@ -52,7 +52,7 @@ DENSITY = "contact_core/laws/density.py"
         ("film/core_smooth", "benchmarks/film/cases.py", "0.5", "0.6", ITSELF),
         ("film/tolerance", "contact_core/scene/records.py", "default=120.0", "default=60.0", "control"),
         ("film/tolerance", "contact_core/data/scenes/mtm_zddp.toml", 'N"', 'kN"', "mtm_zddp"),
-        ("film/measured", "benchmarks/data/optical_films.csv", "1", "2", "measurements"),
+        ("film/measured", "system_models/validation/data/optical_films.csv", "1", "2", "measurements"),
         ("machines/gear_path", "system_models/machines/gear_pair/path.py", "0.5", "0.6", "machines"),
     ],
 )
