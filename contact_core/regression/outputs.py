@@ -220,7 +220,6 @@ def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
         "friction_force": abs(out.friction_force) * out.error_friction,
         "friction_coefficient": out.friction_coefficient * out.error_friction,
         "h_c": out.h_c * out.error_film,
-        "lambda_ratio": out.lambda_ratio * out.error_film,
         "contact_load_ratio": out.error_load_ratio,
     }
     for body in (1, 2):

@@ -136,4 +136,5 @@ def _is_whole(x: float) -> bool:
 
 
 def _example(si_unit: str) -> str:
-    return f"'1.0 {si_unit}'" if si_unit else "0.5"
+    usual = {"K": "'80 degC'", "m": "'20 nm' or '10 mm'", "Pa": "'1.2 GPa'"}
+    return usual.get(si_unit, f"'1.0 {si_unit}'") if si_unit else "0.5"

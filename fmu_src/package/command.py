@@ -76,6 +76,8 @@ def run(arguments: argparse.Namespace) -> int:
     for warning in (*filter(None, [told(assumed)]), *scene.doubts(), *scene.warnings()):
         print(f"Note: {warning}", file=sys.stderr)
     out = arguments.out or Path(f"{scene.name}.fmu")
+    if arguments.flavour == "native":
+        print("Note: C is written and compiled, for each platform in turn; this may take minutes.", file=sys.stderr)
     from .build import build
 
     try:

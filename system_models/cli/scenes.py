@@ -114,12 +114,23 @@ def _overrides(arguments: argparse.Namespace) -> dict[str, str]:
     if getattr(arguments, "hours", None):
         settings["operation.duration"] = f"{arguments.hours} h"
     if arguments.accuracy:
-        settings["control.accuracy"] = arguments.accuracy
+        settings["control.accuracy"] = _share("--accuracy", arguments.accuracy)
     if arguments.grid:
         settings["film.points"] = arguments.grid
     if getattr(arguments, "duty", None):
         settings["operation.file"] = arguments.duty
     return settings
+
+
+def _share(option: str, text: str) -> str:
+    """Return an option that is a share. Raises ContactError for a plain number above 1, most often per cent."""
+    try:
+        number = float(text)
+    except ValueError:
+        return text
+    if number > 1.0:
+        raise ContactError(f"{option} = {text} is more than the whole. Did you mean '{text} %'?")
+    return text
 
 
 def _folder_of_duty(arguments: argparse.Namespace) -> Path:

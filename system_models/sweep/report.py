@@ -88,6 +88,7 @@ def lines(plan: Plan, dataset: xr.Dataset, found: list[Indices]) -> list[str]:
         said.append(_aligned(columns))
     if patches_of(plan):
         said += _means(plan, dataset)
+    said += _known(dataset)
     reasons = [reason for reason in dataset["refused"].values.ravel() if reason]
     if reasons:
         said.append(f"Refused: {len(reasons)} of {dataset['refused'].size} points. The first: {reasons[0]}")
@@ -124,6 +125,18 @@ def _means(plan: Plan, dataset: xr.Dataset) -> list[str]:
         "deviation between them; each run's stated error comes on top."
     )
     return [heading, _aligned(columns)]
+
+
+def _known(dataset: xr.Dataset) -> list[str]:
+    """Return a sentence on how well single runs know their outputs."""
+    last, parts = ends(dataset), []
+    for heading, _, name, _, _ in shown(dataset):
+        if f"{name}{ERROR}" in last.coords:
+            values, halves = np.abs(last[name].values).ravel(), last.coords[f"{name}{ERROR}"].values.ravel()
+            known = np.isfinite(values) & (values > 0.0)
+            if known.any():
+                parts.append(f"{heading} {100.0 * float(np.median(halves[known] / values[known])):.0f} %")
+    return [f"A run alone is known to, at its end (median): {', '.join(parts)}."] if parts else []
 
 
 def write_picture(plan: Plan, dataset: xr.Dataset, file: Path) -> Path:

@@ -289,8 +289,8 @@ def test_an_array_is_copied_and_checked():
     [
         ({"heights": [[1.0, 2.0], [3.0]]}, "surface_2.heights cannot be used: its rows are of unequal length. Give"),
         ({"heights": measured() * 1j}, "surface_2.heights cannot be used: its type is complex128. Give real numbers"),
-        ({"spacing": "8"}, "surface_2.heights.spacing = '8' has no unit. Write for example '1.0 m'."),
-        ({"spacing": None}, "surface_2.heights.spacing = None is not a number. Write for example '1.0 m'."),
+        ({"spacing": "8"}, "surface_2.heights.spacing = '8' has no unit. Write for example '20 nm' or '10 mm'."),
+        ({"spacing": None}, "surface_2.heights.spacing = None is not a number. Write for example '20 nm' or '10 mm'."),
         ({"spacing": np.nan}, "surface_2.heights.spacing = nan m"),
         ({"unit": 1e-9}, "surface_2.heights.unit = 1e-09 is not one of m, mm, um, nm."),
         ({"beyond": True}, "surface_2.heights.beyond = True is not one of mirrored, repeated, flat."),
