@@ -224,4 +224,4 @@ def test_any_sequence_of_calls(flavour, native_program, native_environment, quic
         )
         machine.runTest()
     assert host.code == 0 or Calls.embedded  # a limit of pythonfmu's binary: see test_limits_of_pythonfmu.py
-    assert min(Calls.steps) > 5
+    assert min(Calls.steps) > (1 if Calls.embedded else 5)  # of a fifth of the sequences
