@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 # heading, unit people read, variable, factor from SI, digits
-_COLUMNS = (
+COLUMNS = (
     ("friction", "", "friction_coefficient", 1.0, 4),
     ("h_c", "nm", "h_c", 1e9, 2),
     ("lambda", "", "lambda_ratio", 1.0, 3),
@@ -81,7 +81,7 @@ def table(dataset: xr.Dataset, width: float = math.inf) -> str:
     columns = [["time", "min", *_apart(time[rows] / 60.0)]]
     columns += [
         [heading, unit, *_stated(dataset, name, rows, factor, digits)]
-        for heading, unit, name, factor, digits in (*_COLUMNS, *_below(dataset))
+        for heading, unit, name, factor, digits in (*COLUMNS, *_below(dataset))
     ]
     padded = [[cell.rjust(max(map(len, column))) for cell in column] for column in columns]
     parts = [padded[:1]]

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from ..run.report import with_error
+from ..run.cosim_report import aligned
+from ..run.report import COLUMNS, with_error
 from ..store.results import ERROR
 from .ensemble import averaged, patches_of
 from .plan import Plan
@@ -18,24 +19,18 @@ from .sensitivity import Indices
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# heading, unit people read, variable, factor from SI, digits
-_COLUMNS = (
-    ("friction", "", "friction_coefficient", 1.0, 4),
-    ("h_c", "nm", "h_c", 1e9, 2),
-    ("W_c", "", "contact_load_ratio", 1.0, 3),
-    ("tribofilm 1", "nm", "tribofilm_1", 1e9, 2),
-    ("wear 1", "nm", "wear_depth_1", 1e9, 2),
-    ("wear 2", "nm", "wear_depth_2", 1e9, 2),
+OUTPUTS = (  # in tables and pictures
+    *("friction_coefficient", "h_c", "contact_load_ratio"),
+    *("tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2"),
 )
 _MOST_ROWS = 40
 _BLUE = "#0072B2"  # of Okabe and Ito
-OUTPUTS = tuple(column[2] for column in _COLUMNS)
 
 
 def shown(dataset: xr.Dataset) -> list[tuple[str, str, str, float, int]]:
     """Return the columns whose values are not all zero."""
     last = ends(dataset)
-    return [column for column in _COLUMNS if np.nan_to_num(last[column[2]].values).any()]
+    return [column for column in COLUMNS if column[2] in OUTPUTS and np.nan_to_num(last[column[2]].values).any()]
 
 
 def table(plan: Plan, dataset: xr.Dataset) -> str:
@@ -70,9 +65,7 @@ def _spread(last: xr.Dataset, dataset: xr.Dataset) -> str:
 
 
 def _aligned(columns: list[list[str]]) -> str:
-    widths = [max(map(len, column)) for column in columns]
-    padded = [[cell.rjust(width) for cell in column] for column, width in zip(columns, widths, strict=True)]
-    return "\n".join("  ".join(line) for line in zip(*padded, strict=True))
+    return "\n".join(aligned([list(row) for row in zip(*columns, strict=True)], 0))
 
 
 def lines(plan: Plan, dataset: xr.Dataset, found: list[Indices]) -> list[str]:
