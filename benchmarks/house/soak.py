@@ -66,6 +66,8 @@ class Trial:
 def digest(folder: Path, job: str) -> str:
     """Return a fingerprint of the numbers of a result."""
     file = folder / ("sweep.nc" if job == "sweep" else "result.nc")
+    if not file.exists():
+        return "no result"
     total = hashlib.sha256()
     with xr.open_dataset(file, engine="h5netcdf") as found:
         for name in sorted(map(str, found.variables)):
@@ -153,7 +155,7 @@ def tried(job: str, fault: str, alone: float, expected: str, draw: random.Random
         for _ in range(TRIES):
             trial.memory.append(memory)
             trial.sentences &= "Traceback" not in said and (code in (0, 1, None, -9) or "tribofmu:" in said)
-            if code in (0, 1):
+            if code in (0, 1) and "Traceback" not in said:  # an error that nobody caught has code 1, too
                 break
             if code == 2 and "checkpoint" in said:  # it is damaged, and the sentence says how to begin anew
                 again = words
