@@ -44,11 +44,14 @@ def test_a_reader_that_has_gone_ends_the_output_quietly() -> None:
     assert process.returncode == 141
 
 
-def test_a_full_disk_is_told_in_a_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_full_disk_is_told_in_a_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
     limit = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, limit[1]))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, limit[1]))
     try:
-        code = main(["build", "mtm_zddp", "--set", "film.model=regression", "--out", str(tmp_path / "contact.fmu")])
+        code = main(["new", "mine"])
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limit)
     assert code == 2
