@@ -65,9 +65,9 @@ def refuse_lists(table: Mapping[str, Any]) -> None:
         return
     picked = " ".join(f"{key}={value}" for key, value in found.settings[0])
     raise SceneError(
-        f"{' and '.join(found.keys)} make an ensemble of {len(found.names)} surfaces, not one contact. `tribofmu run` "
-        f"and `tribofmu explain` take it as it is; here pick a member, such as --set {picked}, or write that in the "
-        "scene in place of the list."
+        f"This is an ensemble of {len(found.names)} surfaces ({' and '.join(found.keys)}), not one contact. "
+        f"`tribofmu run` and `tribofmu explain` take it as it is; here pick a member, such as --set {picked}, or write "
+        "that in the scene in place of the list."
     )
 
 

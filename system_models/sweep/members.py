@@ -31,6 +31,11 @@ EXPLAINED = (
     "smaller. sd: how far a single surface is off. +- stated: mean half width (95 %) of the errors that the runs state "
     "(grid, time, sampling, curves), which is common to them and comes on top."
 )
+_ALIKE = (
+    "The members do not differ: nothing in these results depends on what differs between their surfaces. At the "
+    "regression level it is rms height, slope and microroughness that count, and a seed has no effect."
+)
+_ROUNDING = 1e-12  # relative standard deviation of members that are the same
 _ANY = "range_flags"  # of members: raised by any of them
 
 
@@ -68,9 +73,11 @@ def mean_of(members: Members, plan: Plan, dataset: xr.Dataset) -> xr.Dataset:
         for key in map(str, result.coords)
         if key.endswith(ERROR)
     }
-    scatter = {
-        key: found[key] for name in reals if not name.startswith("error_") for key in (f"{name}{SD}", f"{name}{BAND}")
-    }
+    scatter = {}
+    for name in reals:
+        if not name.startswith("error_"):
+            differs = found[f"{name}{SD}"] > _ROUNDING * np.abs(found[name])
+            scatter |= {key: found[key].where(differs, 0.0) for key in (f"{name}{SD}", f"{name}{BAND}")}
     result = result.assign_coords(halves | scatter)
     return result.assign_attrs({**dataset.attrs, ATTRIBUTE: attribute(members)})
 
@@ -123,4 +130,5 @@ def table(members: Members, result: xr.Dataset, dataset: xr.Dataset) -> tuple[li
         cells = ["none" if math.isnan(number) else f"{number:.{digits}f}" for number in numbers]
         rows.append([f"{heading} [{unit}]" if unit else heading, *cells])
     names = ", ".join(f"{number} {name}" for number, name in zip(shown, members.names, strict=True))
-    return list(aligned(rows, 0)), f"{EXPLAINED} Members: {names}."
+    alike = all(numbers[2] == 0.0 for _, _, numbers, _ in ends_of(result, dataset))
+    return list(aligned(rows, 0)), f"{EXPLAINED} Members: {names}." + (f" {_ALIKE}" if alike else "")
