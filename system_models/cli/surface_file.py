@@ -106,9 +106,7 @@ def _out(arguments: argparse.Namespace) -> tuple[Path, list[str]]:
         names = [re.sub(r"[^a-z0-9_-]+", "_", file.stem.lower()) for file in files]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
-        raise ContactError(
-            f"Two files would be written as '{twice}'. Give --out NAME, for NAME_1, NAME_2 and so on."
-        )
+        raise ContactError(f"Two files would be written as '{twice}'. Give --out NAME, for NAME_1, NAME_2 and so on.")
     return output_folder(str(given.parent), ""), names
 
 

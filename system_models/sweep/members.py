@@ -73,7 +73,7 @@ def mean_of(members: Members, plan: Plan, dataset: xr.Dataset) -> xr.Dataset:
         for key in map(str, result.coords)
         if key.endswith(ERROR)
     }
-    scatter = {}
+    scatter: dict[str, xr.DataArray] = {}
     for name in reals:
         if not name.startswith("error_"):
             differs = found[f"{name}{SD}"] > _ROUNDING * np.abs(found[name])
