@@ -1,6 +1,7 @@
 """The command `tribofmu surface-file`: makes a measured surface ready for a scene."""
 
 import argparse
+import itertools
 import re
 from pathlib import Path
 
@@ -107,7 +108,13 @@ def _out(arguments: argparse.Namespace) -> tuple[Path, list[str]]:
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise ContactError(f"Two files would be written as '{twice}'. Give --out NAME, for NAME_1, NAME_2 and so on.")
-    return output_folder(str(given.parent), ""), names
+    folder = output_folder(str(given.parent), "")
+    for name, file in itertools.product(names, files):
+        if (folder / f"{name}.npy").resolve() == file.resolve():
+            raise ContactError(
+                f"'{file}' itself would be replaced by the prepared heights. Give another name by --out."
+            )
+    return folder, names
 
 
 def _length(text: str, option: str) -> float:
