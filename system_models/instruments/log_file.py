@@ -94,7 +94,7 @@ def _tables(
         if rows:
             yield title, kind, headers, rows
         headers, rows = [""], []
-        if found := _KIND.match(line):
+        if found := _KIND.match(line):  # before headers: FILM is a name of a column, too
             kind = found[1]
         elif _is_header(line, mark, names):
             headers = cells
@@ -120,8 +120,6 @@ def _text(content: bytes) -> str:
 
 
 def _is_header(line: str, mark: str, names: Mapping[str, tuple[str, str | None]]) -> bool:
-    if _KIND.match(line):  # "FILM" is the name of a column, too
-        return False
     cells = [cell.strip().strip('"') for cell in line.split(mark)]
     full = [cell for cell in cells if cell]
     return len(full) > 1 and not any(_NUMBER.match(cell) for cell in full) and log_columns.known(full, names)
