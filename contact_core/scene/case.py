@@ -10,7 +10,7 @@ from ..errors import OperatingPointError
 from ..film.instant import Grid
 from ..laws.asperity_layer import AsperityLayer
 from ..quantities import TABLE
-from ..reference import Hertz, slipping_share
+from ..reference import Hertz, SmoothContact, SmoothLine, slipping_share
 from ..shapes import Shape
 from ..shapes.base import Viscosity
 from .operation import OperatingPoint
@@ -178,9 +178,14 @@ class Case:
         return max((abs(side.speed) for side in self.sides if not side.surface.smooth), default=0.0)
 
     @property
+    def smooth_contact(self) -> SmoothContact | SmoothLine:
+        """The contact of the smooth bodies in the terms of film formulas."""
+        return self.shape.smooth(*self._film_inputs)
+
+    @property
     def smooth_film(self) -> float:
         """Central film thickness [m] of the smooth bodies by formula."""
-        return self.shape.smooth(*self._film_inputs).film
+        return self.smooth_contact.film
 
     @property
     def conventional_film(self) -> float:

@@ -15,6 +15,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any, TypeVar
 
+from ..film.inlet_loss import inlets_for
 from ..film.lengths import inlet_length
 from ..quantities import UNSOLVED
 from .checks import duty_points
@@ -105,6 +106,17 @@ def room_for_hertz(scene: SceneFields) -> float:
     return HALF_WIDTHS * max(hertz.a, hertz.b if square else 0.0)
 
 
+def room_for_inlet(scene: SceneFields, lost: float) -> float:
+    """Return the length [m] of a grid on which at most this part of the film is missing, as it cuts the inlet off."""
+    return _with_inlets(scene, 2.0 * inlets_for(lost, scene.shape()))
+
+
+def _with_inlets(scene: SceneFields, inlets: float) -> float:
+    """Return the length [m] of the largest contact and so many of the longest inlet, on both sides together."""
+    loaded = [op for _, op in duty_points(scene) if op.load > 0.0]
+    return 2.0 * scene.hertz(scene.largest_load).a + inlets * max((inlet(scene, op) for op in loaded), default=0.0)
+
+
 def inlet(scene: SceneFields, op: OperatingPoint) -> float:
     """Return the length [m] of the inlet at an operating point, 0 without entrainment."""
     if op.entrainment_speed == 0.0:
@@ -124,9 +136,7 @@ def _sized(scene: Scene) -> Scene:
         if ratio > _ELLIPSE and scene.film.width == 0.0:
             scene = with_values(scene, {"film.width": _as_told(HALF_WIDTHS * hertz.b)})
             square = HALF_WIDTHS * hertz.a
-        inlets = _INLETS[scene.shape().has_far_field]
-        loaded = [op for _, op in duty_points(scene) if op.load > 0.0]
-        domain = max(square, 2.0 * hertz.a + inlets * max(inlet(scene, op) for op in loaded))
+        domain = max(square, _with_inlets(scene, _INLETS[scene.shape().has_far_field]))
     longest = max((_LENGTHS * each.length for each in _rough(scene)), default=0.0)
     domain = longest if domain < longest <= 2.0 * domain else domain
     return with_values(scene, {"film.domain": _as_told(domain)})
