@@ -99,9 +99,7 @@ class Contact:
         along = -left * step, right * step
         try:
             if self.shape == "line":
-                found: Any = line_contact(
-                    **self.arguments, domain=along, grid=left + right + 1, tolerance=_TOLERANCE
-                )
+                found: Any = line_contact(**self.arguments, domain=along, grid=left + right + 1, tolerance=_TOLERANCE)
             else:
                 domain, grid = (*along, -side * step, side * step), (2 * side + 1, left + right + 1)
                 found = point_contact(**self.arguments, domain=domain, grid=grid, tolerance=_TOLERANCE)

@@ -13,7 +13,7 @@ from ..film.grid_error import (
     tribofilm_error,
     wear_error,
 )
-from ..film.inlet_loss import NEGLIGIBLE, lost_film
+from ..film.inlet_loss import NEGLIGIBLE
 from ..film.lengths import inlet_length
 from ..scene import Case
 from ..state import Error, Outputs
@@ -36,20 +36,13 @@ def with_errors_of_the_solution(case: Case, out: Outputs, found: Mapping[str, Er
     What a domain that ends within the inlet takes from the film is left out where it is negligible beside the others.
     """
     rough, film = _by_grid(case)
-    lost, stopped = missing(case), _STOPPED + _UNCONVERGED * out.unconverged
+    lost, stopped = case.missing_film, _STOPPED + _UNCONVERGED * out.unconverged
     errors = {}
     for name, error in found.items():
         grid, inlet = _half_width(case, out, name, rough, film), _half_width(case, out, name, 0.0, lost)
         others = error._replace(grid=grid, iteration=stopped * abs(getattr(out, name)))
         errors[name] = others._replace(inlet=inlet) if inlet > NEGLIGIBLE * others.together else others
     return errors
-
-
-def missing(case: Case) -> float:
-    """Return the part of the film of smooth bodies that may be missing, as the domain ends within the inlet."""
-    supply = case.scene.lubricant.supply
-    edge = 0.5 * case.scene.film.domain
-    return lost_film(edge, case.hertz.a, case.shape, case.smooth_contact, supply.layer, supply.inlet)
 
 
 def _half_width(case: Case, out: Outputs, name: str, rough: float, film: float) -> float:

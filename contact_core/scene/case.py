@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import OperatingPointError
+from ..film.inlet_loss import lost_film
 from ..film.instant import Grid
 from ..laws.asperity_layer import AsperityLayer
 from ..quantities import TABLE
@@ -186,6 +187,12 @@ class Case:
     def smooth_film(self) -> float:
         """Central film thickness [m] of the smooth bodies by formula."""
         return self.smooth_contact.film
+
+    @property
+    def missing_film(self) -> float:
+        """Part of the film, over the one that is found, that may be missing as film.domain ends within the inlet."""
+        supply, before = self.scene.lubricant.supply, 0.5 * self.scene.film.domain
+        return lost_film(before, self.hertz.a, self.shape, self.smooth_contact, supply.layer, supply.inlet)
 
     @property
     def conventional_film(self) -> float:

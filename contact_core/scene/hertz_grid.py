@@ -15,9 +15,10 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any, TypeVar
 
-from ..film.inlet_loss import inlets_for
+from ..film.inlet_loss import inlets_for, is_light
 from ..film.lengths import inlet_length
 from ..quantities import UNSOLVED
+from ..reference import SmoothContact, SmoothLine
 from .checks import duty_points
 from .defaults import Assumed
 from .fields import ROOM, SceneFields
@@ -108,22 +109,24 @@ def room_for_hertz(scene: SceneFields) -> float:
 
 def room_for_inlet(scene: SceneFields, lost: float) -> float:
     """Return the length [m] of a grid on which at most this part of the film is missing, as it cuts the inlet off."""
-    return _with_inlets(scene, 2.0 * inlets_for(lost, scene.shape()))
-
-
-def _with_inlets(scene: SceneFields, inlets: float) -> float:
-    """Return the length [m] of the largest contact and so many of the longest inlet, on both sides together."""
-    loaded = [op for _, op in duty_points(scene) if op.load > 0.0]
-    return 2.0 * scene.hertz(scene.largest_load).a + inlets * max((inlet(scene, op) for op in loaded), default=0.0)
+    largest, before = scene.hertz(scene.largest_load).a, [0.0]
+    for op in (point for _, point in duty_points(scene) if point.load > 0.0 and point.entrainment_speed != 0.0):
+        light = is_light(scene.shape(op), _smooth(scene, op), scene.lubricant.supply.layer)
+        before.append(inlets_for(lost, scene.shape(op), light=light) * inlet(scene, op))
+    return 2.0 * (largest + max(before))
 
 
 def inlet(scene: SceneFields, op: OperatingPoint) -> float:
     """Return the length [m] of the inlet at an operating point, 0 without entrainment."""
     if op.entrainment_speed == 0.0:
         return 0.0
-    shape, modulus = scene.shape(op), scene.solids.reduced_modulus
-    smooth = shape.smooth(op.load, abs(op.entrainment_speed), scene.lubricant.viscosity, op.inlet_temperature, modulus)
-    return inlet_length(shape.hertz(op.load, modulus).a, shape, smooth.film)
+    a = scene.shape(op).hertz(op.load, scene.solids.reduced_modulus).a
+    return inlet_length(a, scene.shape(op), _smooth(scene, op).film)
+
+
+def _smooth(scene: SceneFields, op: OperatingPoint) -> SmoothContact | SmoothLine:
+    oil, modulus = (scene.lubricant.viscosity, op.inlet_temperature), scene.solids.reduced_modulus
+    return scene.shape(op).smooth(op.load, abs(op.entrainment_speed), *oil, modulus)
 
 
 def _sized(scene: Scene) -> Scene:
@@ -136,7 +139,9 @@ def _sized(scene: Scene) -> Scene:
         if ratio > _ELLIPSE and scene.film.width == 0.0:
             scene = with_values(scene, {"film.width": _as_told(HALF_WIDTHS * hertz.b)})
             square = HALF_WIDTHS * hertz.a
-        domain = max(square, _with_inlets(scene, _INLETS[scene.shape().has_far_field]))
+        inlets = _INLETS[scene.shape().has_far_field]
+        loaded = [op for _, op in duty_points(scene) if op.load > 0.0]
+        domain = max(square, 2.0 * hertz.a + inlets * max(inlet(scene, op) for op in loaded))
     longest = max((_LENGTHS * each.length for each in _rough(scene)), default=0.0)
     domain = longest if domain < longest <= 2.0 * domain else domain
     return with_values(scene, {"film.domain": _as_told(domain)})
