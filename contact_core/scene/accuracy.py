@@ -93,8 +93,8 @@ def _points(scene: SceneFields, accuracy: float) -> int:
             return points
     raise SceneError(
         f"control.accuracy = {100.0 * accuracy:.3g} % cannot be had: on {POINTS[-1]} nodes, the most that are chosen, "
-        f"the error by the grid alone is {100.0 * least:.3g} %. Give at least {100.0 * least / _GRID:.3g} %, or set "
-        "film.points yourself and read the errors that are stated."
+        f"over {1e3 * scene.film.domain:.3g} mm the error by the grid alone is {100.0 * least:.3g} %. Give at least "
+        f"{100.0 * least / _GRID:.3g} %, or set film.points yourself and read the errors that are stated."
     )
 
 

@@ -131,20 +131,25 @@ def _inlet(scene: Scene, cases: Sequence[Case]) -> list[str]:
     worst = max(cases, key=lambda case: case.missing_film)
     if worst.missing_film <= _MISSING:
         return []
-    a, shape, film = worst.hertz.a, worst.shape, worst.smooth_film
-    before = inlets_before(0.5 * scene.film.domain, a, shape, film)
-    domain = max(
-        2.0 * (case.hertz.a + inlets_for(_LEFT, shape) * inlet_length(case.hertz.a, shape, case.smooth_film))
-        for case in cases
-        if case.entrained
-    )
-    nodes = math.ceil((scene.film.points - 1) * domain / scene.film.domain) + 1
-    points = next((each for each in POINTS if each >= nodes), POINTS[-1])
+    before = inlets_before(0.5 * scene.film.domain, worst.hertz.a, worst.shape, worst.smooth_film)
+    domain = _flooded(cases)
+    nodes = (scene.film.points - 1) * domain / scene.film.domain
+    points = next((each for each in POINTS if each > nodes), POINTS[-1])
     return [
         f"Inlet: film.domain ends {before:.2g} lengths of the inlet before the contact: its film comes out too thin, "
         f"by up to {100.0 * worst.missing_film / (1.0 + worst.missing_film):.2g} %; its error holds that. Take --set "
         f"film.domain='{1e3 * domain:.2g} mm' --grid {points}."
     ]
+
+
+def _flooded(cases: Sequence[Case]) -> float:
+    """Return the length [m] of a domain that cuts the inlet of no case off; 0 if nothing brings oil in."""
+    halves = (
+        case.hertz.a + inlets_for(_LEFT, case.shape) * inlet_length(case.hertz.a, case.shape, case.smooth_film)
+        for case in cases
+        if case.entrained
+    )
+    return 2.0 * max(halves, default=0.0)
 
 
 def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
@@ -153,7 +158,8 @@ def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
     nodes = 2.0 * least / scene.film.spacing
     if scene.film.name in UNSOLVED or nodes >= _FEW:
         return []
-    wide = max(_WIDE * most, _WAVES * max(side.surface.length for side in cases[0].sides))
+    waves = _WAVES * max(side.surface.length for side in cases[0].sides)
+    wide = max(_WIDE * most, waves, _flooded(cases))
     finer = (
         f"a smaller domain, such as --set film.domain='{1e3 * wide:.2g} mm'"
         if wide < 0.5 * scene.film.domain
