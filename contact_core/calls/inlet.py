@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from math import hypot
 
-from ..film.grid_error import area_error, film_error, load_ratio_error, other_error
-from ..film.inlet_loss import NEGLIGIBLE, inlets_before, inlets_for, is_light, lost_film
+from ..film.grid_error import area_error, film_error, load_ratio_error
+from ..film.inlet_loss import NEGLIGIBLE, PEAK, inlets_before, inlets_for, is_light, lost_film
 from ..film.instant import FilmSolution, Grid, Instant
 from ..film.lengths import inlet_length
 from ..reference import SmoothContact, SmoothLine
@@ -35,7 +35,7 @@ def with_inlet(
     parts |= {
         "contact_load_ratio": load_ratio_error(share, 0.0, lost),
         "contact_area_ratio": area_error(share, 0.0, lost) * values["contact_area_ratio"],
-        "pressure_max": other_error(share, 0.0, lost) * values["pressure_max"],
+        "pressure_max": PEAK * lost * values["pressure_max"],
     }
     both = {
         name: hypot(error, parts[name]) if parts.get(name, 0.0) > NEGLIGIBLE * error else error

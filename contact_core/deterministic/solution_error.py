@@ -13,7 +13,7 @@ from ..film.grid_error import (
     tribofilm_error,
     wear_error,
 )
-from ..film.inlet_loss import NEGLIGIBLE
+from ..film.inlet_loss import NEGLIGIBLE, PEAK
 from ..film.lengths import inlet_length
 from ..scene import Case
 from ..state import Error, Outputs
@@ -28,6 +28,14 @@ _RELATIVE: dict[str, Callable[[float, float, float], float]] = {
     "friction_solid": solids_error,
     "wear_depth": wear_error,
 }
+# where the domain cuts the inlet off: outputs that no missing film changes, and those that change by a part of another
+# one where all film is missing
+_WITHOUT_FILM = {"lambda_conventional", "roughness_1", "roughness_2"}
+_PARTS = {
+    "approach": (1.0, "h_c"),
+    "contact_temperature_max": (1.0, "flash_temperature_rise"),
+    "pressure_max": (PEAK, "pressure_max"),
+}
 
 
 def with_errors_of_the_solution(case: Case, out: Outputs, found: Mapping[str, Error]) -> dict[str, Error]:
@@ -39,7 +47,7 @@ def with_errors_of_the_solution(case: Case, out: Outputs, found: Mapping[str, Er
     lost, stopped = case.missing_film, _STOPPED + _UNCONVERGED * out.unconverged
     errors = {}
     for name, error in found.items():
-        grid, inlet = _half_width(case, out, name, rough, film), _half_width(case, out, name, 0.0, lost)
+        grid, inlet = _half_width(case, out, name, rough, film), _by_inlet(case, out, name, lost)
         others = error._replace(grid=grid, iteration=stopped * abs(getattr(out, name)))
         errors[name] = others._replace(inlet=inlet) if inlet > NEGLIGIBLE * others.together else others
     return errors
@@ -57,6 +65,16 @@ def _half_width(case: Case, out: Outputs, name: str, rough: float, film: float) 
         return tribofilm_error(share, rough, film, smoother=smoother) * value
     relative = _RELATIVE.get(name.removesuffix("_1").removesuffix("_2"), other_error)
     return relative(share, rough, film) * value
+
+
+def _by_inlet(case: Case, out: Outputs, name: str, lost: float) -> float:
+    """Return the half width of an output by film that is missing, over the film that is found."""
+    if name in _WITHOUT_FILM:
+        return 0.0
+    if name in _PARTS:
+        part, of = _PARTS[name]
+        return part * lost * abs(getattr(out, of))
+    return _half_width(case, out, name, 0.0, lost)
 
 
 def _by_grid(case: Case) -> tuple[float, float]:

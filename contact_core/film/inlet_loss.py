@@ -11,10 +11,11 @@ from ..shapes import Shape
 from .lengths import FAR_FIELD_BELOW, inlet_length
 
 NEGLIGIBLE = 0.1  # of an error by other causes: less changes the error by less than 1 %
+PEAK = 0.5  # relative change of the largest pressure over that of the film, at most
 _SCALE = 2.0  # inlets
 _POINTS, _LINES = 3.3, 2.5  # powers with which the loss falls
 _MOST = 0.9  # of the film, that a loss may be
-_LEAST = 1.5  # inlets: on less no solution is found of some thick films
+_LEAST = {True: 3.0, False: 1.5}  # inlets, of light contacts or others: on less no solution is found of some
 _CONTINUED = 9.0  # of light points, whose pressure goes on beyond the edge by `kernels.far_field`
 
 
@@ -28,7 +29,7 @@ def inlets_before(before: float, a: float, shape: Shape, film: float) -> float:
 
 def inlets_for(lost: float, shape: Shape, *, light: bool = False) -> float:
     """Return the lengths of the inlet before Hertz's contact with which at most this part of the film is missing."""
-    return max(_SCALE * (lost ** (-1.0 / _power(shape, light=light)) - 1.0), _LEAST)
+    return max(_SCALE * (lost ** (-1.0 / _power(shape, light=light)) - 1.0), _LEAST[light])
 
 
 def is_light(shape: Shape, smooth: SmoothContact | SmoothLine, layer: float | None) -> bool:

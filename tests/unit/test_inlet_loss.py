@@ -87,15 +87,18 @@ def test_a_layer_of_oil_ends_the_far_field_of_a_light_point():
 
 def errors_of(scene, **outputs):
     case = Case.bind(scene, scene.operation.point)
-    found = {name: Error() for name in ("h_c", "lambda_ratio", "contact_load_ratio", "friction_force", "wear_depth_1")}
+    names = "h_c", "lambda_ratio", "contact_load_ratio", "friction_force", "wear_depth_1", "roughness_1", "pressure_max"
+    found = {name: Error() for name in names}
     return case, with_errors_of_the_solution(case, Outputs(**outputs), found)
 
 
 def test_a_domain_that_cuts_the_inlet_off_is_a_cause_of_errors():
     out = {"h_c": 2e-7, "contact_load_ratio": 0.3, "friction_force": 10.0, "friction_solid": 8.0, "wear_depth_1": 1e-8}
+    out |= {"roughness_1": 1e-8, "pressure_max": 1e9}
     case, found = errors_of(Scene.from_toml("ball_209_inner"), **out)
     assert found["h_c"].inlet == approx(0.7 * case.missing_film * 2e-7)
     assert found["h_c"].together > found["h_c"].inlet > found["h_c"].grid
+    assert found["roughness_1"].inlet == 0.0 < found["pressure_max"].inlet < 1e9 * case.missing_film
     assert all(found[name].inlet > 0.0 for name in ("contact_load_ratio", "friction_force", "wear_depth_1"))
 
 
