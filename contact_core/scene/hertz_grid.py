@@ -18,7 +18,6 @@ from typing import Any, TypeVar
 from ..film.inlet_loss import inlets_for, is_light
 from ..film.lengths import inlet_length
 from ..quantities import UNSOLVED
-from ..reference import SmoothContact, SmoothLine
 from .checks import duty_points
 from .defaults import Assumed
 from .fields import ROOM, SceneFields
@@ -109,24 +108,21 @@ def room_for_hertz(scene: SceneFields) -> float:
 
 def room_for_inlet(scene: SceneFields, lost: float) -> float:
     """Return the length [m] of a grid on which at most this part of the film is missing, as it cuts the inlet off."""
-    largest, before = scene.hertz(scene.largest_load).a, [0.0]
+    oil, modulus, before = scene.lubricant, scene.solids.reduced_modulus, [0.0]
     for op in (point for _, point in duty_points(scene) if point.load > 0.0 and point.entrainment_speed != 0.0):
-        light = is_light(scene.shape(op), _smooth(scene, op), scene.lubricant.supply.layer)
-        before.append(inlets_for(lost, scene.shape(op), light=light) * inlet(scene, op))
-    return 2.0 * (largest + max(before))
+        shape = scene.shape(op)
+        smooth = shape.smooth(op.load, abs(op.entrainment_speed), oil.viscosity, op.inlet_temperature, modulus)
+        before.append(inlet(scene, op) * inlets_for(lost, shape, light=is_light(shape, smooth, oil.supply.layer)))
+    return 2.0 * (scene.hertz(scene.largest_load).a + max(before))
 
 
 def inlet(scene: SceneFields, op: OperatingPoint) -> float:
     """Return the length [m] of the inlet at an operating point, 0 without entrainment."""
     if op.entrainment_speed == 0.0:
         return 0.0
-    a = scene.shape(op).hertz(op.load, scene.solids.reduced_modulus).a
-    return inlet_length(a, scene.shape(op), _smooth(scene, op).film)
-
-
-def _smooth(scene: SceneFields, op: OperatingPoint) -> SmoothContact | SmoothLine:
-    oil, modulus = (scene.lubricant.viscosity, op.inlet_temperature), scene.solids.reduced_modulus
-    return scene.shape(op).smooth(op.load, abs(op.entrainment_speed), *oil, modulus)
+    shape, modulus = scene.shape(op), scene.solids.reduced_modulus
+    smooth = shape.smooth(op.load, abs(op.entrainment_speed), scene.lubricant.viscosity, op.inlet_temperature, modulus)
+    return inlet_length(shape.hertz(op.load, modulus).a, shape, smooth.film)
 
 
 def _sized(scene: Scene) -> Scene:

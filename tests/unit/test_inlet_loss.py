@@ -128,6 +128,11 @@ def test_an_accuracy_leaves_a_quarter_of_itself_to_a_cut_inlet(accuracy, speed, 
     assert scene.film.domain >= 2.8 * scene.hertz(scene.operation.load).a
 
 
+def test_a_contact_that_brings_no_oil_in_has_the_room_of_hertz_contact():
+    scene = Scene.from_dict(twenty_lines(speed_2="-10 m/s") | {"control": {"accuracy": 0.2}})
+    assert scene.film.domain == approx(2.88 * scene.hertz(500.0).a)
+
+
 def test_the_longest_inlet_of_a_duty_counts():
     table = twenty_lines(speed_1="0.1 m/s", speed_2="0.1 m/s") | {"control": {"accuracy": 0.1}}
     alone = Scene.from_dict(table)
