@@ -21,7 +21,7 @@ DEFAULTS = ("calls", "control")  # of which only these count: what follows from 
 # checks and stores a scene or a state.
 GROUPS: dict[str, tuple[str, ...]] = {
     "film": (*(f"contact_core/{room}/*.py" for room in ("kernels", "laws", "shapes", "reference", "film")),
-             "-contact_core/film/estimate.py", "-contact_core/film/refined.py", "-contact_core/film/grid_steps.py", "-contact_core/film/grid_error.py",
+             "-contact_core/film/estimate.py", "-contact_core/film/refined.py", "-contact_core/film/grid_steps.py", "-contact_core/film/grid_error.py", "-contact_core/film/inlet_loss.py",
              "-contact_core/laws/equations.py", "-contact_core/laws/symbols.py", "-contact_core/film/regression.py", "-contact_core/kernels/cache.py", "-contact_core/laws/load_sharing.py",
              "-contact_core/kernels/subsurface.py", "-contact_core/kernels/stress_measures.py", "-contact_core/reference/stresses.py"),
     "calls": ("contact_core/calls/*.py", "-contact_core/calls/subsurface_stress.py"),
@@ -30,7 +30,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "control": ("contact_core/scene/records.py",),
     "estimate": ("contact_core/film/estimate.py", "contact_core/film/refined.py", "contact_core/film/grid_steps.py",
                  "contact_core/calls/refinement.py"),
-    "grid_error": ("contact_core/film/grid_error.py", "contact_core/deterministic/solution_error.py",
+    "grid_error": ("contact_core/film/grid_error.py", "contact_core/film/inlet_loss.py", "contact_core/deterministic/solution_error.py",
                    "contact_core/scene/accuracy.py"),
     "evolution": ("contact_core/deterministic/*.py", "-contact_core/deterministic/outputs.py",
                   "-contact_core/deterministic/__init__.py",
@@ -103,6 +103,7 @@ PAGES: dict[str, Source] = {
     ),
     "film/peers": Source("film.peers", ("film", "calls", "evolution")),
     "film/accuracy": Source("film.accuracy", ("film", "calls", "estimate")),
+    "film/inlet": Source("film.inlet", ("film", "calls", "grid_error")),
     "film/grid_error": Source(
         "film.grid_error", ("film", "evolution", "control", "uncertainty", "grid_error", *CIRCLES, "fzg_flank")
     ),

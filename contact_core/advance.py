@@ -63,8 +63,8 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
 def uncertainty(scene: Scene, state: ContactState) -> dict[str, Error]:
     """Return the errors of the outputs of a state by name: half widths (95 %), each in the unit of its output.
 
-    Each is apart by its causes (time steps, sampling, grid, iteration, fitted curves) and, by `Error.together`, one
-    number. `scene` is that of the last step, at its level.
+    Each is apart by its causes (time steps, sampling, grid, iteration, fitted curves, cut inlet) and, by
+    `Error.together`, one number. `scene` is that of the last step, at its level.
     """
     return LEVELS[scene.film.name].errors_of(scene, state)
 

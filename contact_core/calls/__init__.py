@@ -5,6 +5,7 @@
     dry_contact     rough bodies without a film
     subsurface_stress  stress below one's own pressure and shear
     common          what the calls share
+    inlet           what a domain that ends within the inlet takes from the film
     refinement      grids from coarse to fine, and the surface that all of them sample
 
 Each call takes SI numbers and returns a record with the convergence of its solution.

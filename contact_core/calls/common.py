@@ -15,9 +15,11 @@ from ..film.instant import FilmSolution, Grid, Instant, Settings
 from ..laws.density import DowsonHigginson, Incompressible
 from ..laws.viscosity import Barus, Roelands
 from ..quantities import TABLE, out_of_range, parameter
+from ..reference import SmoothContact, SmoothLine
 from ..reference.starvation import supplied_film
 from ..scene.toml import did_you_mean
 from ..shapes import Shape
+from .inlet import with_inlet
 from .refinement import Surface
 
 Array = NDArray[np.float64]
@@ -55,7 +57,7 @@ class FilmContact(Convergence):
     contact_load_ratio: float
     pressure_max: float
     approach: float
-    error_estimate: dict[str, float]  # half width of each output above, in its unit, by coarser grids
+    error_estimate: dict[str, float]  # half width of each output above, in its unit, by coarser grids and a cut inlet
     warnings: tuple[str, ...]  # reasons why the answer is less reliable
     steps: tuple[GridStep, ...] = ()  # grids that were solved to meet `accuracy`, in their order
 
@@ -127,9 +129,7 @@ def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -
     """
     if numbers.entrainment_speed == 0.0:
         return 0.0
-    oil = _VISCOSITY["barus"](numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0), _REFERENCE
-    smooth = shape.smooth(load, abs(numbers.entrainment_speed), *oil, numbers.reduced_modulus)
-    film = replace(smooth, pressure_coefficient=max(numbers.pressure_viscosity, 1e-12)).film
+    film = smooth_of(shape, load, numbers).film
     if supply is not None:
         film = supplied_film(film, supply, resistance=shape.side_resistance)
     radius, least = min((value, name) for name, value in shape.radii)
@@ -143,6 +143,13 @@ def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -
             ]
         )
     return film
+
+
+def smooth_of(shape: Shape, load: float, numbers: Numbers) -> SmoothContact | SmoothLine:
+    """Return the flooded contact of the smooth bodies in the terms of film formulas; `load` [N] of the whole shape."""
+    oil = _VISCOSITY["barus"](numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0), _REFERENCE
+    smooth = shape.smooth(load, abs(numbers.entrainment_speed), *oil, numbers.reduced_modulus)
+    return replace(smooth, pressure_coefficient=max(numbers.pressure_viscosity, 1e-12))
 
 
 def solve_call(
@@ -243,6 +250,7 @@ def _answer(
     errors: dict[str, float],
 ) -> Found:
     state, hertz = found.state, now.shape.hertz(now.load, now.reduced_modulus)
+    errors, cut = with_inlet(now, nodes, found, values, errors)
     return found_as(
         x=nodes.x,
         y=nodes.y,
@@ -253,7 +261,7 @@ def _answer(
         oil=state.mass,
         **(found.convergence | values),
         error_estimate=errors,
-        warnings=tuple(_warnings(found, nodes, min(hertz.a, hertz.b))),
+        warnings=(*_warnings(found, nodes, min(hertz.a, hertz.b)), *cut),
     )
 
 

@@ -19,9 +19,11 @@ from .common import (
     no_numbers,
     numbers_of,
     refuse,
+    smooth_of,
     solve_call,
     solve_to_accuracy,
 )
+from .inlet import extent_before
 from .refinement import MOST_NODES, grids_within, intervals, surface_of, wants_accuracy
 
 Array = NDArray[np.float64]
@@ -182,8 +184,9 @@ def _grid(
     spacing: float | None,
     grid: int | tuple[int, int] | None,
     domain: tuple[float, float] | None,
+    before: float = 0.0,
 ) -> Grid:
-    """Return the nodes that the arguments ask for."""
+    """Return the nodes that the arguments ask for; they reach `before` [m] the centre if the domain is open."""
     from ..film.fitted import line_extent, rows_over
 
     ny, nx = grid_nodes(grid)
@@ -205,7 +208,11 @@ def _grid(
     nx = nx or _NODES
     if not 17 <= nx <= _MOST or (ny is not None and ny > _MOST):
         refuse([f"grid = {(ny, nx)} must have from 17 to {_MOST} nodes along x, and at most as many along y."])
-    left, right = line_extent(shape, load, numbers.reduced_modulus, film) if domain is None else _sides(domain)
+    if domain is None:
+        left, right = line_extent(shape, load, numbers.reduced_modulus, film)
+        left = max(left, before)
+    else:
+        left, right = _sides(domain)
     if spacing is None:
         spacing = (left + right) / (nx - 1)
         before = left / spacing if domain is not None else round(left / spacing)  # a node lies on the centre
@@ -231,8 +238,11 @@ def _grid(
 
 def _grids(numbers: _Numbers, shape: Line, load: float, film: float, domain: tuple[float, float] | None) -> list[Grid]:
     """Return grids for smooth bodies, from coarse to fine."""
+    a, before = shape.hertz(load, numbers.reduced_modulus).a, 0.0
+    if film > 0.0:
+        before = extent_before(numbers.accuracy, a, shape, smooth_of(shape, load, numbers))
     counts = intervals(_COARSEST, _FINEST) if shape.periodic else intervals()
-    grids = (_grid(numbers, shape, load, film, None, None, count + 1, domain) for count in counts)
+    grids = (_grid(numbers, shape, load, film, None, None, count + 1, domain, before) for count in counts)
     return [grid for grid in grids if grid.x.size * grid.y.size <= MOST_NODES]
 
 

@@ -1,6 +1,6 @@
 """Lubricated circular or elliptical point contact at one instant in one call. SI, arrays in and out."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,9 +17,11 @@ from .common import (
     heights_of,
     numbers_of,
     refuse,
+    smooth_of,
     solve_call,
     solve_to_accuracy,
 )
+from .inlet import extent_before
 from .refinement import MOST_NODES, grids_within, intervals, surface_of, wants_accuracy
 
 Array = NDArray[np.float64]
@@ -227,6 +229,9 @@ def _grids(
         sides = _sides(domain)
         return grids_within(Grid(np.array(sides[:2]), np.array(sides[2:])))
     extent = Extent.of(shape, numbers.load, numbers.reduced_modulus, film)
+    a, smooth = shape.hertz(numbers.load, numbers.reduced_modulus).a, smooth_of(shape, numbers.load, numbers)
+    if film > 0.0:
+        extent = replace(extent, left=max(extent.left, extent_before(numbers.accuracy, a, shape, smooth)))
     nodes = ((n, n) if shape.circular else extent.shape(shorter=n) for n in (count + 1 for count in intervals()))
     grids = [extent.grid(*shape) for shape in nodes if shape[0] * shape[1] <= MOST_NODES]
     return grids if numbers.entrainment_speed >= 0.0 else [grid.mirrored() for grid in grids]

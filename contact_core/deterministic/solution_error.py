@@ -1,4 +1,4 @@
-"""Errors of the contact's solution: by the grid, and by iterations that stop early."""
+"""Errors of the contact's solution: by the grid, by the inlet that it cuts off, and by iterations that stop early."""
 
 from collections.abc import Callable, Mapping
 
@@ -6,12 +6,14 @@ from ..film.grid_error import (
     area_error,
     film_error,
     friction_error,
+    inlet_error,
     load_ratio_error,
     other_error,
     solids_error,
     tribofilm_error,
     wear_error,
 )
+from ..film.inlet_loss import NEGLIGIBLE, PEAK
 from ..film.lengths import inlet_length
 from ..scene import Case
 from ..state import Error, Outputs
@@ -26,33 +28,59 @@ _RELATIVE: dict[str, Callable[[float, float, float], float]] = {
     "friction_solid": solids_error,
     "wear_depth": wear_error,
 }
+# where the domain cuts the inlet off: outputs that no missing film changes, and those that change by a part of another
+# one where all film is missing
+_WITHOUT_FILM = {"lambda_conventional", "roughness_1", "roughness_2"}
+_PARTS = {
+    "approach": (1.0, "h_c"),
+    "contact_temperature_max": (1.0, "flash_temperature_rise"),
+    "pressure_max": (PEAK, "pressure_max"),
+}
 
 
 def with_errors_of_the_solution(case: Case, out: Outputs, found: Mapping[str, Error]) -> dict[str, Error]:
-    """Return errors of outputs, by name and in their units, with those by the grid and by iterations."""
-    nodes, share = _nodes(case), min(out.contact_load_ratio, 1.0)
-    rougher = f"tribofilm_{case.scene.rougher + 1}"
-    stopped = _STOPPED + _UNCONVERGED * out.unconverged
+    """Return errors of outputs, by name and in their units, with those by the grid, the inlet and by iterations.
+
+    What a domain that ends within the inlet takes from the film is left out where it is negligible beside the others.
+    """
+    rough, film = _by_grid(case)
+    lost, stopped = case.missing_film, _STOPPED + _UNCONVERGED * out.unconverged
     errors = {}
     for name, error in found.items():
-        value = abs(getattr(out, name))
-        if name == "friction_force":
-            grid = friction_error(share, out.friction_solid, out.friction_force - out.friction_solid, *nodes)
-        elif name == "contact_load_ratio":
-            grid = load_ratio_error(share, *nodes)
-        elif name.startswith("tribofilm_"):
-            grid = tribofilm_error(share, *nodes, smoother=name != rougher) * value
-        else:
-            relative = _RELATIVE.get(name.removesuffix("_1").removesuffix("_2"), other_error)
-            grid = relative(share, *nodes) * value
-        errors[name] = error._replace(grid=grid, iteration=stopped * value)
+        grid, inlet = _half_width(case, out, name, rough, film), _by_inlet(case, out, name, lost)
+        others = error._replace(grid=grid, iteration=stopped * abs(getattr(out, name)))
+        errors[name] = others._replace(inlet=inlet) if inlet > NEGLIGIBLE * others.together else others
     return errors
 
 
-def _nodes(case: Case) -> tuple[float, float]:
-    """Return the nodes per correlation length of the rougher body, and across the inlet; 0 without any."""
+def _half_width(case: Case, out: Outputs, name: str, rough: float, film: float) -> float:
+    """Return the half width of an output by nodes per correlation length and a relative error of the film."""
+    value, share = abs(getattr(out, name)), min(out.contact_load_ratio, 1.0)
+    if name == "friction_force":
+        return friction_error(share, out.friction_solid, out.friction_force - out.friction_solid, rough, film)
+    if name == "contact_load_ratio":
+        return load_ratio_error(share, rough, film)
+    if name.startswith("tribofilm_"):
+        smoother = name != f"tribofilm_{case.scene.rougher + 1}"
+        return tribofilm_error(share, rough, film, smoother=smoother) * value
+    relative = _RELATIVE.get(name.removesuffix("_1").removesuffix("_2"), other_error)
+    return relative(share, rough, film) * value
+
+
+def _by_inlet(case: Case, out: Outputs, name: str, lost: float) -> float:
+    """Return the half width of an output by film that is missing, over the film that is found."""
+    if name in _WITHOUT_FILM:
+        return 0.0
+    if name in _PARTS:
+        part, of = _PARTS[name]
+        return part * lost * abs(getattr(out, of))
+    return _half_width(case, out, name, 0.0, lost)
+
+
+def _by_grid(case: Case) -> tuple[float, float]:
+    """Return nodes per correlation length of the rougher body, 0 of smooth ones, and the error of the smooth film."""
     spacing, rougher = case.scene.film.spacing, case.sides[case.scene.rougher].surface
     rough = 0.0 if rougher.smooth else rougher.length / spacing
     if not case.entrained or case.smooth_film <= 0.0:
         return rough, 0.0
-    return rough, inlet_length(case.hertz.a, case.shape, case.smooth_film) / spacing
+    return rough, inlet_error(inlet_length(case.hertz.a, case.shape, case.smooth_film) / spacing)

@@ -17,6 +17,7 @@
     refined         grids from coarse to fine, until an accuracy is met
     grid_steps      record of a grid that is solved on the way to an accuracy
     grid_error      errors of moving rough contacts by the distance of the nodes
+    inlet_loss      film that is missing where the domain ends within the inlet
 
 `FILMS` are the records that `scene.film` may be.
 """

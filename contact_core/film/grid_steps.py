@@ -16,7 +16,7 @@ class GridStep:
     iterations: int
     converged: bool
     output: str  # with the largest stated error for what is asked of it; empty on a first grid, which has no estimate
-    error: float  # stated one of that output: relative, of ratios absolute
+    error: float  # stated one of that output, by the grid: relative, of ratios absolute
 
 
 def area_by_chance(touching: Mask, cell: float, area: float) -> float:

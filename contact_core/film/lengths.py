@@ -4,6 +4,7 @@ import numpy as np
 
 from ..shapes import Shape
 
+FAR_FIELD_BELOW = 30.0  # Moes' M: above it, the pressure beyond a film-sized grid changes the film by less than 1 %
 _NODES = {True: 1.0, False: 3.0}  # across the inlet that flow needs which is fitted to cells, or upwind
 
 

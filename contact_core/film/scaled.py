@@ -17,7 +17,7 @@ from ..kernels.mixed.problem import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
 from ..reference.starvation import film_behind_meniscus, supplied_film
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
-from .lengths import film_size, inlet_length, resolves_inlet
+from .lengths import FAR_FIELD_BELOW, film_size, inlet_length, resolves_inlet
 from .outputs import disc
 from .shared import ENTRIES, half_space, tables
 from .solids import pressed
@@ -30,7 +30,6 @@ _DRY_ITERATIONS = 1000
 _START_TOLERANCE = 1e-2
 _SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95, from light contact to nearly dry
 _LEAST_EASE = 1e-6  # below it, oil does not flow
-_FAR_FIELD_BELOW = 30.0  # Moes' M: above it, the pressure beyond a film-sized grid changes the film by less than 1 %
 _SLOWEST = 0.25  # unit of speeds, in nodes per time step: below it, squeezing dominates
 LOAD_ACCEPTED = 1e-3  # relative error of the load, up to which a film is accepted
 _BEYOND_KNOWN = 0.05  # relative error of the formula for the load beyond the grid
@@ -170,7 +169,7 @@ class Scaled:
     @property
     def is_light(self) -> bool:
         """True if the film is so thick that the pressure beyond the grid matters."""
-        return self.moes_load < _FAR_FIELD_BELOW or self._gap_before > 0.0
+        return self.moes_load < FAR_FIELD_BELOW or self._gap_before > 0.0
 
     @cached_property
     def speed(self) -> float:

@@ -136,7 +136,7 @@ def _knot(case: Case, means: Means, after: ContactState) -> Knot:
         means,
         found=_three(getattr(out, name) for name in CORRECTED),
         errors=_three(getattr(out, name) for name in CORRECTED.values()),
-        shared=_three(math.hypot(error.grid, error.iteration) for error in relative),
+        shared=_three(math.hypot(error.grid, error.iteration, error.inlet) for error in relative),
         scatter=_three(error.sampling for error in relative),
         flags=out.range_flags,
     )

@@ -10,17 +10,18 @@ from collections.abc import Collection, Mapping
 from typing import Any, TypeVar
 
 from ..errors import SceneError
-from ..film.grid_error import film_error, load_ratio_error
+from ..film.grid_error import film_error, inlet_error, load_ratio_error
 from ..quantities import UNSOLVED
 from .checks import duty_points
 from .fields import SceneFields
-from .hertz_grid import POINTS, inlet, room_for_hertz, with_values
+from .hertz_grid import POINTS, inlet, room_for_hertz, room_for_inlet, with_values
 from .records import CHOSEN
 
 Scene = TypeVar("Scene", bound=SceneFields)
 
 _PATCHES = 129  # of a state at the regression level
 _GRID = 0.97  # part of the accuracy that is left to the grid: errors add up as squares
+_INLET = 0.24  # part that is left to the film missing where the domain cuts the inlet off
 _TYPICAL_SHARE = 0.5  # W_c: which it will be is not known before
 # of time steps and sampling at an accuracy of 5 %: stated errors of the shipped scenes are then 2 to 5 %
 _AT = 0.05
@@ -68,7 +69,7 @@ def planned(scene: Scene, open_fields: Collection[str]) -> Scene:
         "control.dry_instants": min(max(math.ceil(_DRY_INSTANTS * finer), _DRY_INSTANTS), _MOST_DRY),
     }
     if "film.domain" in open_fields:
-        values["film.domain"] = room_for_hertz(scene)
+        values["film.domain"] = max(room_for_hertz(scene), room_for_inlet(scene, _INLET * accuracy))
         scene = with_values(scene, {"film.domain": values["film.domain"]})
     if "film.points" in open_fields:
         values["film.points"] = _points(scene, accuracy)
@@ -92,8 +93,8 @@ def _points(scene: SceneFields, accuracy: float) -> int:
             return points
     raise SceneError(
         f"control.accuracy = {100.0 * accuracy:.3g} % cannot be had: on {POINTS[-1]} nodes, the most that are chosen, "
-        f"the error by the grid alone is {100.0 * least:.3g} %. Give at least {100.0 * least / _GRID:.3g} %, or set "
-        "film.points yourself and read the errors that are stated."
+        f"over {1e3 * scene.film.domain:.3g} mm the error by the grid alone is {100.0 * least:.3g} %. Give at least "
+        f"{100.0 * least / _GRID:.3g} %, or set film.points yourself and read the errors that are stated."
     )
 
 
@@ -106,7 +107,7 @@ def _error(scene: SceneFields, points: int) -> float:
     for op in (point for _, point in duty_points(scene) if point.load > 0.0):
         rougher = (scene.surface_1, scene.surface_2)[scene.rougher]
         spacing = scene.film.domain / (points - 1)
-        nodes = 0.0 if rougher.smooth else rougher.length / spacing, inlet(scene, op) / spacing
+        nodes = 0.0 if rougher.smooth else rougher.length / spacing, inlet_error(inlet(scene, op) / spacing)
         share = 0.0 if rougher.smooth and not _layered(scene) else _TYPICAL_SHARE
         found += [film_error(share, *nodes), load_ratio_error(share, *nodes)]
     return max(found)

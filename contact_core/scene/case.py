@@ -7,10 +7,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import OperatingPointError
+from ..film.inlet_loss import lost_film
 from ..film.instant import Grid
 from ..laws.asperity_layer import AsperityLayer
 from ..quantities import TABLE
-from ..reference import Hertz, slipping_share
+from ..reference import Hertz, SmoothContact, SmoothLine, slipping_share
 from ..shapes import Shape
 from ..shapes.base import Viscosity
 from .operation import OperatingPoint
@@ -178,9 +179,20 @@ class Case:
         return max((abs(side.speed) for side in self.sides if not side.surface.smooth), default=0.0)
 
     @property
+    def smooth_contact(self) -> SmoothContact | SmoothLine:
+        """The contact of the smooth bodies in the terms of film formulas."""
+        return self.shape.smooth(*self._film_inputs)
+
+    @property
     def smooth_film(self) -> float:
         """Central film thickness [m] of the smooth bodies by formula."""
-        return self.shape.smooth(*self._film_inputs).film
+        return self.smooth_contact.film
+
+    @property
+    def missing_film(self) -> float:
+        """Part of the film, over the one that is found, that may be missing as film.domain ends within the inlet."""
+        supply, before = self.scene.lubricant.supply, 0.5 * self.scene.film.domain
+        return lost_film(before, self.hertz.a, self.shape, self.smooth_contact, supply.layer, supply.inlet)
 
     @property
     def conventional_film(self) -> float:

@@ -15,6 +15,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any, TypeVar
 
+from ..film.inlet_loss import inlets_for, is_light
 from ..film.lengths import inlet_length
 from ..quantities import UNSOLVED
 from .checks import duty_points
@@ -103,6 +104,16 @@ def room_for_hertz(scene: SceneFields) -> float:
     hertz = scene.hertz(scene.largest_load)
     square = scene.geometry.bounded_across and scene.film.width == 0.0
     return HALF_WIDTHS * max(hertz.a, hertz.b if square else 0.0)
+
+
+def room_for_inlet(scene: SceneFields, lost: float) -> float:
+    """Return the length [m] of a grid on which at most this part of the film is missing, as it cuts the inlet off."""
+    oil, modulus, before = scene.lubricant, scene.solids.reduced_modulus, [0.0]
+    for op in (point for _, point in duty_points(scene) if point.load > 0.0 and point.entrainment_speed != 0.0):
+        shape = scene.shape(op)
+        smooth = shape.smooth(op.load, abs(op.entrainment_speed), oil.viscosity, op.inlet_temperature, modulus)
+        before.append(inlet(scene, op) * inlets_for(lost, shape, light=is_light(shape, smooth, oil.supply.layer)))
+    return 2.0 * (scene.hertz(scene.largest_load).a + max(before))
 
 
 def inlet(scene: SceneFields, op: OperatingPoint) -> float:

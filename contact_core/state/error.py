@@ -12,6 +12,7 @@ class Error(NamedTuple):
     grid: float = 0.0  # distance of the nodes
     iteration: float = 0.0  # solutions that stop early
     curves: float = 0.0  # fitted curves of the regression level
+    inlet: float = 0.0  # a domain that ends within the inlet
 
     @property
     def together(self) -> float:

@@ -23,6 +23,7 @@ CAUSES = {  # in words, by field of `Error`
     "grid": "grid",
     "iteration": "early stop",
     "curves": "fitted curves",
+    "inlet": "cut inlet",
 }
 _SHOWN = (
     "friction_coefficient", "h_c", "lambda_ratio", "contact_load_ratio", "tribofilm_1", "tribofilm_2",
@@ -123,7 +124,7 @@ def _by_cause(run: Run) -> Iterator[str]:
             "quiet",
         )
         return
-    used = [cause for cause in CAUSES if any(run.causes[name][cause] > 0.0 for name in names)]
+    used = [cause for cause in CAUSES if any(run.causes[name].get(cause, 0.0) > 0.0 for name in names)]
     rows = []
     for name in names:
         error = Error(**run.causes[name])
@@ -153,6 +154,7 @@ _MEANING = {
     "grid": "grid: the distance of its nodes",
     "iteration": "early stop: solutions are stopped at film.tolerance",
     "curves": "fitted curves: the regression level's distance from the deterministic level",
+    "inlet": "cut inlet: film.domain ends within the inlet, which leaves the film too thin",
 }
 
 

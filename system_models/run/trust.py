@@ -9,8 +9,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from contact_core.film.inlet_loss import inlets_before, inlets_for
+from contact_core.film.lengths import inlet_length
 from contact_core.quantities import UNSOLVED
 from contact_core.scene import Case, OperatingPoint, Scene
+from contact_core.scene.hertz_grid import POINTS
 from contact_core.state import Error
 
 from ..store.results import half_width
@@ -21,6 +24,7 @@ _MOST_POINTS = 200  # of a duty that are looked at
 _MIXED, _FULL = 1.0, 3.0  # lambda of handbooks, from which on lubrication is called mixed, and full film
 _FEW = 8.0  # nodes across the contact, below which RangeFlag.FEW_NODES is raised
 _WIDE, _WAVES = 5.0, 8.0  # half widths of the contact and correlation lengths, that a domain should have
+_MISSING, _LEFT = 0.05, 0.02  # of the film: missing from which on a line says so, and left by its way out
 _ROUND = 0.01  # relative difference of half widths, up to which one is told
 _POOR, _UNKNOWN = 0.35, 1.0  # relative half widths from which on a quantity is known roughly, and hardly at all
 _SHORT, _LONG = 60, 120  # columns of text
@@ -46,6 +50,7 @@ _CAUSES = {
     "grid": "the grid",
     "iteration": "solutions that stop early",
     "curves": "the fitted curves",
+    "inlet": "a domain that cuts the inlet off",
 }
 
 
@@ -55,7 +60,9 @@ def before(scene: Scene, duty: Duty) -> list[str]:
     if not cases:
         return ["Contact: no load, the bodies just touch."]
     return [
-        line for text in (_contact(cases), _motion(cases), _film(cases), *_grid(scene, cases)) for line in wrapped(text)
+        line
+        for text in (_contact(cases), _motion(cases), _film(cases), *_grid(scene, cases), *_inlet(scene, cases))
+        for line in wrapped(text)
     ]
 
 
@@ -118,13 +125,42 @@ def _word(ratio: float) -> str:
     return "mixed lubrication" if ratio < _FULL else "full film"
 
 
+def _inlet(scene: Scene, cases: Sequence[Case]) -> list[str]:
+    """Return a line on a domain that cuts the inlet off, with the way out."""
+    if scene.film.name in UNSOLVED:
+        return []
+    worst = max(cases, key=lambda case: case.missing_film)
+    if worst.missing_film <= _MISSING:
+        return []
+    before = inlets_before(0.5 * scene.film.domain, worst.hertz.a, worst.shape, worst.smooth_film)
+    domain = _flooded(cases)
+    nodes = (scene.film.points - 1) * domain / scene.film.domain
+    points = next((each for each in POINTS if each > nodes), POINTS[-1])
+    return [
+        f"Inlet: film.domain ends {before:.2g} lengths of the inlet before the contact: its film comes out too thin, "
+        f"by up to {100.0 * worst.missing_film / (1.0 + worst.missing_film):.2g} %; its error holds that. Take --set "
+        f"film.domain='{1e3 * domain:.2g} mm' --grid {points}."
+    ]
+
+
+def _flooded(cases: Sequence[Case]) -> float:
+    """Return the length [m] of a domain that cuts the inlet of no case off; 0 if nothing brings oil in."""
+    halves = (
+        case.hertz.a + inlets_for(_LEFT, case.shape) * inlet_length(case.hertz.a, case.shape, case.smooth_film)
+        for case in cases
+        if case.entrained
+    )
+    return 2.0 * max(halves, default=0.0)
+
+
 def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
     """Return a line on a grid that is too coarse for the contact, with the way out."""
     least, most = (f(case.hertz.a for case in cases) for f in (min, max))
     nodes = 2.0 * least / scene.film.spacing
     if scene.film.name in UNSOLVED or nodes >= _FEW:
         return []
-    wide = max(_WIDE * most, _WAVES * max(side.surface.length for side in cases[0].sides))
+    waves = _WAVES * max(side.surface.length for side in cases[0].sides)
+    wide = max(_WIDE * most, waves, _flooded(cases))
     finer = (
         f"a smaller domain, such as --set film.domain='{1e3 * wide:.2g} mm'"
         if wide < 0.5 * scene.film.domain

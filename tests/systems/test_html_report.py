@@ -177,6 +177,13 @@ def test_causes_add_up_to_the_stated_error(result: xr.Dataset, opened: Run, pars
     assert "central film thickness" in parsed.text
 
 
+def test_results_of_versions_that_knew_fewer_causes_can_be_read(opened: Run) -> None:
+    known = {name: {c: half for c, half in causes.items() if c != "inlet"} for name, causes in opened.causes.items()}
+    older = replace(opened, causes=known)
+    assert known != opened.causes
+    assert "steps in time" in trust.sections(older)
+
+
 def test_scene_laws_versions_and_digests_are_told(parsed: Parsed, opened: Run) -> None:
     assert opened.scene is not None
     for words in ("53.7 N", "9.525 mm", "Ghanbarzadeh et al. 2016", *opened.files.values()):

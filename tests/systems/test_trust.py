@@ -60,8 +60,24 @@ def test_a_changing_duty_is_told_by_its_ranges() -> None:
 def test_a_grid_too_coarse_for_the_contact_is_told_with_the_way_out() -> None:
     told = before("fzg_flank", operation__load="40 N", geometry__face_width="8 mm")
     assert "Grid: 7.0 nodes across the contact; below 8 the film is one of the grid" in told
-    assert "--set film.domain='0.2 mm'" in told
-    assert "Grid" not in before("fzg_flank", operation__load="40 N", geometry__face_width="8 mm", film__domain="0.2 mm")
+    assert "Take --grid 513" in told  # a smaller domain would cut the inlet off
+    slow = {"operation__speed_1": "4 mm/s", "operation__speed_2": "3 mm/s"} | {
+        "operation__load": "40 N",
+        "geometry__face_width": "8 mm",
+    }
+    assert "--set film.domain='0.2 mm'" in before("fzg_flank", **slow)
+    assert "Grid" not in before("fzg_flank", **slow, film__domain="0.2 mm")
+
+
+def test_a_domain_that_cuts_the_inlet_off_is_told_with_a_domain_that_does_not() -> None:
+    told = before("ball_209_inner")
+    assert (
+        "Inlet: film.domain ends 0.9 lengths of the inlet before the contact: its film comes out too thin, by" in told
+    )
+    assert "--set film.domain='0.62 mm' --grid 193" in told
+    assert "Inlet" not in before("ball_209_inner", film__domain="0.62 mm", film__points="193")
+    assert "Inlet" not in before("ball_209_inner", film__model="regression")
+    assert "Inlet" not in before("mtm_zddp")
 
 
 def test_a_flag_names_the_quantity_and_by_how_much() -> None:

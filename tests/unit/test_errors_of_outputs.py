@@ -27,7 +27,8 @@ def cheap(**changes):
 
 @pytest.mark.parametrize("case", COARSE_AND_FINE)
 def test_errors_of_a_coarse_grid_cover_a_fine_one_and_a_tenth_of_them_would_not(case):
-    rows, nodes = COARSE_AND_FINE[case], NODES[case[0]]
+    rows, (rough, inlet) = COARSE_AND_FINE[case], NODES[case[0]]
+    nodes = rough, inlet_error(inlet)
     share, fine = rows["contact_load_ratio"]
     friction, other = rows["friction"]
     solid = 0.13 * share
@@ -49,13 +50,13 @@ def test_the_error_of_a_smooth_film_covers_the_shipped_scenes_and_a_tenth_of_it_
 
 @pytest.mark.parametrize("error", [load_ratio_error, film_error, solids_error])
 def test_errors_fall_as_nodes_come_closer(error):
-    found = [error(0.5, 1.0 * finer, 1.0 * finer) for finer in (1, 2, 4, 8)]
+    found = [error(0.5, 1.0 * finer, inlet_error(1.0 * finer)) for finer in (1, 2, 4, 8)]
     assert found == sorted(found, reverse=True)
     assert found[0] > 2.0 * found[-1] > 0.0
 
 
 def test_smooth_bodies_have_no_error_by_roughness():
-    assert film_error(0.0, 0.0, 5.0) == inlet_error(5.0)
+    assert film_error(0.0, 0.0, inlet_error(5.0)) == inlet_error(5.0)
     assert load_ratio_error(0.0, 1.0, 1.0) == 0.0
 
 

@@ -96,9 +96,9 @@ LEVELS = {
         _period,
         _loads_on_grid,
         "The derivatives of friction_force hold the film: pressures grow with the load, the gap does not change.",
-        "They include the distance of the nodes, time steps, sampling, and iterations that stop early. That of the "
-        "nodes follows a rule fitted to differences between grids of the shipped scenes; another kind of surface may "
-        "lie outside it: compare two grids.",
+        "They include the distance of the nodes, time steps, sampling, iterations that stop early, and film that is "
+        "missing where the domain cuts the inlet off. That of the nodes follows a rule fitted to differences between "
+        "grids of the shipped scenes; another kind of surface may lie outside it: compare two grids.",
         _steps_of_blocks,
     ),
     "regression": LevelText(
