@@ -11,8 +11,8 @@ from dataclasses import fields, is_dataclass
 from functools import cache
 from typing import Any
 
+from ..entry_points import offered
 from ..errors import SceneError
-from ..plugins import offered
 from . import SLOTS, base
 from .base import Law
 

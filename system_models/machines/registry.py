@@ -2,8 +2,8 @@
 
 from functools import cache
 
+from contact_core.entry_points import offered
 from contact_core.errors import SceneError
-from contact_core.plugins import offered
 
 from ..parts.part import MACHINES
 from .ball_bearing.machine import BALL_BEARING
