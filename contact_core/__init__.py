@@ -28,9 +28,9 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     data/            named oils, solids and tribofilms, and the shipped scenes
 
 Imports run one way: errors, progress, quantities, reference <- entry_points, kernels <- laws <- shapes <- film <-
-scene <- state, calls <- surfaces <- deterministic, regression, correction <- amended <- auto, mapped <- advance. The first two
-levels do not import each other. Everything inside is SI; heights are metres above a body's mean plane, positive toward
-the other body; arrays are [ny, nx], x along entrainment.
+scene <- state, calls <- surfaces <- deterministic, regression, correction <- amended <- auto, mapped <- advance. The
+first two levels do not import each other. Everything inside is SI; heights are metres above a body's mean plane,
+positive toward the other body; arrays are [ny, nx], x along entrainment.
 """
 
 from .advance import advance, uncertainty, warm_up
