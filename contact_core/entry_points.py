@@ -5,6 +5,8 @@ from typing import Any
 
 from .errors import SceneError
 
+PREFIX = "tribofmu."  # of all groups
+
 
 def offered(prefix: str) -> dict[str, dict[str, Any]]:
     """Return what packages offer in groups of entry points whose names begin with `prefix`: by group, then by name.
@@ -29,6 +31,12 @@ def offered(prefix: str) -> dict[str, dict[str, Any]]:
 def homes(group: str) -> set[str]:
     """Return the names of the packages or modules that offer something in a group; nothing is imported."""
     return {entry.module.partition(".")[0] for entry in _entries(group)}
+
+
+def versions(modules: set[str]) -> dict[str, str]:
+    """Return names and versions of the packages that offer something from modules or packages of these names."""
+    found = {entry.dist for entry in _entries(PREFIX) if entry.module.partition(".")[0] in modules}
+    return {dist.name: dist.version for dist in found if dist}
 
 
 def _described(entry: EntryPoint) -> str:

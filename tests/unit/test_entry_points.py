@@ -10,6 +10,7 @@ import pytest
 from contact_core import Scene, SceneError
 from contact_core.laws import SLOTS, offered
 from contact_core.laws.viscosity import Barus
+from fmu_src.runtime import resources as of_contacts
 from system_models.machines import registry
 from system_models.parts import resources
 from system_models.parts.load_arm import LoadArm
@@ -132,3 +133,22 @@ def test_a_component_is_made_from_packages_that_offer_machines_alone(package: Pa
     package("tribofmu.machines", "arm = others_work:Arm", text, "machines")
     assert resources.read(str(tmp_path), module) == replace(arm)
     assert isinstance(arm, LoadArm)
+
+
+def test_an_fmu_refuses_another_version_of_the_package_of_its_law(package: Package, tmp_path: Path) -> None:
+    package("tribofmu.laws.viscosity", "mine = others_work:Mine", LAW)
+    scene = Scene.from_toml("mtm_zddp", {"lubricant.viscosity.model": "mine"})
+    files = of_contacts.files(scene)
+    for name, data in files.items():
+        (tmp_path / name).write_bytes(data)
+    module = files["slavemodule.txt"].decode()
+    assert of_contacts.read(str(tmp_path), module) == scene
+    (info,) = tmp_path.glob("*.dist-info/METADATA")
+    info.write_text(info.read_text("utf-8").replace("Version: 1", "Version: 2"), "utf-8")
+    of_contacts.read.cache_clear()
+    with pytest.raises(SceneError, match="built with others-work 1, but 2 is installed"):
+        of_contacts.read(str(tmp_path), module)
+
+
+def test_an_fmu_with_our_laws_names_our_packages_alone() -> None:
+    assert of_contacts.versions_of(Scene.from_toml("mtm_zddp")) == of_contacts.VERSIONS
