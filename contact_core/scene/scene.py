@@ -13,7 +13,7 @@ from ..errors import SceneError
 from ..film import FILMS
 from ..film.mapped import with_map_found
 from ..quantities import out_of_range
-from . import checks, hertz_grid, plausibility
+from . import checks, ensemble, hertz_grid, plausibility
 from .accuracy import planned, provisional
 from .defaults import Assumed, completed_by_defaults
 from .fields import SceneFields
@@ -132,7 +132,8 @@ class Scene(SceneFields):
 
 def _built(table: Mapping[str, Any], folders: tuple[Path, ...]) -> tuple[Scene, tuple[Assumed, ...]]:
     """Return the checked scene of nested tables, and the values that these do not give."""
-    given, assumed = completed_by_defaults(located(table, *folders))
+    ensemble.refuse_lists(table)
+    given, assumed = completed_by_defaults(located(ensemble.taken(table), *folders))
     chosen, for_accuracy = provisional(completed(given))
     filled, of_grid = hertz_grid.provisional(chosen)
     try:

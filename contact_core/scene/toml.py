@@ -16,7 +16,7 @@ from ..laws import SLOTS
 from ..laws.base import Model
 from ..laws.offered import laws_of
 from ..shapes import GEOMETRIES
-from . import units
+from . import ensemble, units
 from .problems import Missing, TableError
 from .records import ACCURACY, CHOSEN
 from .self_affine import SelfAffine
@@ -73,12 +73,26 @@ def text_of(source: str | Path, kind: str = "scene") -> str:
 def given(source: str | Path, overrides: Mapping[str, str]) -> tuple[dict[str, Any], tuple[Path, ...]]:
     """Return a scene's tables with `overrides`, of dotted keys, and the folders in which its files are looked for."""
     folders = (folder_of(source), Path())
-    table = located(read_table(source), *folders)
+    table = located(ensemble.taken(read_table(source)), *folders)
     changes = {full_key(key, value): value for key, value in overrides.items()}
     for key, value in sorted(changes.items(), key=override_order):
-        last = key.rpartition(".")[2]
-        override(table, key, located({last: value}, *reversed(folders))[last])
+        path, _, last = key.rpartition(".")
+        if key in ensemble.FILES:
+            table[path] = _with_file(table.get(path, {}), value, folders)
+        else:
+            override(table, key, located({last: value}, *reversed(folders))[last])
     return table, folders
+
+
+def _with_file(surface: Mapping[str, Any], file: str, folders: tuple[Path, ...]) -> dict[str, Any]:
+    """Return the table of a surface with a file: in place of its list, else in place of all if it is a set.
+
+    `folders` are those of `given`; files of the scene's own list are looked for in their order, others the other way.
+    """
+    rest = {key: value for key, value in surface.items() if key != "files"}
+    replaced = "files" not in surface and ensemble.is_set(file)
+    own = isinstance(surface.get("files"), list)
+    return located(ensemble.with_file({} if replaced else rest, file), *(folders if own else reversed(folders)))
 
 
 def _of_toml(path: Path, error: ValueError) -> str:
@@ -116,7 +130,8 @@ def models_of(path: str) -> tuple[type[Model], ...]:
 def override(table: dict[str, Any], key: str, value: str) -> None:
     """Set a dotted key.
 
-    A new `model` keeps the keys it shares with the old one and drops the others; a new `set` drops all other keys;
+    A new `model` keeps the keys it shares with the old one and drops the others; a new `set`, or list of sets, drops
+    all other keys; `seed` drops the list `seeds`;
     `control.accuracy` drops those that it chooses, but for film.domain.
     """
     if key == ACCURACY:
@@ -134,8 +149,11 @@ def override(table: dict[str, Any], key: str, value: str) -> None:
             return
         table.clear()
         table |= _for_model(full, where, value)
-    if last == "set" and str(table.get("set")).lower() != value.lower():
+    new_set = last == "set" and str(table.get("set")).lower() != value.lower()
+    if new_set or (key in ensemble.LISTS and ensemble.is_set(value)):
         table.clear()
+    if last == "seed":
+        table.pop("seeds", None)
     table[last] = value
 
 
@@ -395,7 +413,9 @@ def full_key(key: str, value: str) -> str:
 
 def override_order(item: tuple[str, str]) -> int:
     """Return the rank in which an override is applied: sets, models and accuracy first; they decide on other keys."""
-    return {"set": 0, "model": 1, "accuracy": 2}.get(item[0].rpartition(".")[2], 3)
+    if item[0] in ensemble.LISTS:  # before the member that is picked of them
+        return -1
+    return {"set": 0, "model": 1, "accuracy": 2}.get(item[0].rpartition(".")[2], 0 if item[0] in ensemble.FILES else 3)
 
 
 def completed(table: Mapping[str, Any]) -> dict[str, Any]:

@@ -7,6 +7,7 @@
     surface_file surface-file: a measured surface made ready for a scene
     surfaces    surfaces: what a grid shows of the surfaces
     run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
+    ensemble    a scene with several surfaces through its duty
     report      report: a run as one HTML page
     compare     compare: runs beside each other, with their error bands
     stribeck    stribeck: Stribeck curves

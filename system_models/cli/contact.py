@@ -32,7 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
     scene, duty = contact(arguments)
     fields = _fields(arguments.fields, scene, duty)
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
-    warn(scene)
+    warn(scene.warnings())
     with alone(folder):
         return _run_in(folder, scene, duty, fields, arguments)
 
@@ -59,7 +59,7 @@ def _run_in(folder: Path, scene: Scene, duty: "Duty", fields: "Fields | None", a
         return code
     if not checkpoint.saved:
         ask_before(folder, origin.attributes(scene, duty, count), arguments.force)
-        _introduce(scene, duty)
+        introduce(scene, duty)
     with continued_by_resume(lambda: checkpoint.file if checkpoint.count else None):
         dataset, errors = _simulate(scene, duty, checkpoint, fields)
         code = _report(dataset, errors, scene, duty, folder, fields)
@@ -96,7 +96,7 @@ def _finished(folder: Path, scene: Scene, duty: "Duty", fields: int) -> int | No
     return 1 if report.invalid_rows(dataset) else 0
 
 
-def _introduce(scene: Scene, duty: "Duty") -> None:
+def introduce(scene: Scene, duty: "Duty") -> None:
     """Print what the contact is like, before it is solved."""
     from ..run import trust
 

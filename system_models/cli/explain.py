@@ -26,13 +26,27 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print laws, equations, values with their sources, what is left out, and what to trust; return 0."""
-    from ..explain.scene import explain
     from ..explain.terminal import render
 
     settings, name = dict(arguments.settings), arguments.scene
-    explanation = _contact(name, settings) if files.is_machine(name) else explain(name, settings)
+    explanation = _contact(name, settings) if files.is_machine(name) else _scene(name, settings)
     print(render(explanation, shutil.get_terminal_size((100, 24)).columns))
     return 0
+
+
+def _scene(name: str, settings: dict[str, str]) -> "Explanation":
+    """Return the explanation of a scene; of an ensemble that of its first member, which says so."""
+    from contact_core.scene.ensemble import members
+    from contact_core.scene.toml import given
+
+    from ..explain.scene import explain
+
+    found = members(given(name, settings)[0])
+    if found is None:
+        return explain(name, settings)
+    explanation = explain(name, settings | dict(found.settings[0]))
+    about = f"{found.text} `tribofmu run` runs each and gives their mean with its band; this is the first of them."
+    return replace(explanation, about=f"{about} {explanation.about}".rstrip())
 
 
 def _contact(name: str, settings: dict[str, str]) -> "Explanation":

@@ -64,7 +64,7 @@ def run(arguments: argparse.Namespace) -> int:
     measured = fit_data.read(Path(arguments.data), scene, arguments.level)
     constants = fit_model.constants_of(scene, arguments.vary, measured.quantities)
     folder = output_folder(arguments.out, name)
-    warn(scene)
+    warn(scene.warnings())
     with alone(folder):
         found = _fitted(name, scene, measured, constants, arguments.level, share)
         return _report(found, name, folder)

@@ -29,9 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--faster",
         type=int,
         choices=(1, 2),
-        default=1,
         help="body that a positive slide-to-roll ratio makes the faster one; of ball on disc 1 is the ball "
-        "(default: %(default)s)",
+        "(default: as ball and disc speeds of the log say, else 1)",
     )
     parser.add_argument("--out", metavar="NAME", help="writes NAME_duty.csv and NAME_data.csv (default: name of FILE)")
 
@@ -46,10 +45,16 @@ def run(arguments: argparse.Namespace) -> int:
     rows = log_tables.rows_of(log, arguments.step, arguments.faster, srr)
     print(f"{log.name}: {len(log.steps)} steps")
     for number, step in enumerate(log.steps, 1):
-        print(f"  {number}  {step.title or 'without a title'}: {len(step.rows)} rows")
+        kind = f", {step.kind}" if step.kind else ""
+        print(f"  {number}  {step.title or 'without a title'}{kind}: {len(step.rows)} rows")
     print("Taken:", *log.taken(), sep="\n  ")
     if log.left_out:
         print("Left out:", *log.left_out, sep="\n  ")
+    sliding = [step for step in log.steps if step.has("srr") or step.has("sliding_speed")]
+    if moving := [step for step in sliding if not log_tables.of_pin(step)]:
+        print(_faster(arguments.faster, [log_tables.faster_of(step) for step in moving]))
+    if len(moving) < len(sliding):
+        print("Body 1 is the pin, which stands still.")
     duty, data = log_tables.duty(rows), log_tables.data(rows)
     if not duty and not data:
         raise ContactError(f"'{log.name}' has neither a duty nor anything measured in the columns that are taken.")
@@ -69,3 +74,14 @@ def run(arguments: argparse.Namespace) -> int:
         )
     print(f"Written: {', '.join(map(str, written))}")
     return 0
+
+
+def _faster(given: int | None, told: list[int]) -> str:
+    """Return a sentence on the body that a positive slide-to-roll ratio makes the faster one."""
+    bodies = sorted({body or 1 for body in told})
+    if given:
+        return f"A positive slide-to-roll ratio makes body {given} the faster one (--faster)."
+    if not any(told):
+        return "A positive slide-to-roll ratio is taken to make body 1 the faster one: the log does not say (--faster)."
+    words = f"body {bodies[0]}" if len(bodies) == 1 else "in some steps body 1, in others body 2"
+    return f"A positive slide-to-roll ratio makes {words} the faster one, as ball and disc speeds of the log say."

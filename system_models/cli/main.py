@@ -6,6 +6,7 @@ has gone, as in `tribofmu list | head`.
 """
 
 import argparse
+import errno
 import os
 import sys
 from collections.abc import Sequence
@@ -68,6 +69,18 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "completion": (completion, "print a script with which a shell completes all this"),
 }
 
+# why a system refuses to write: no room, or no right
+_REFUSED = {
+    errno.ENOSPC,
+    errno.EDQUOT,
+    errno.EFBIG,
+    errno.EROFS,
+    errno.EACCES,
+    errno.EPERM,
+    errno.EIO,
+    errno.ENAMETOOLONG,
+}
+
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
@@ -86,6 +99,16 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # else the exit tries to write again
         return 141
+    except OSError as error:
+        if error.errno not in _REFUSED:
+            raise
+        named = f" for '{error.filename}'" if error.filename else ""
+        print(
+            f"tribofmu: The system refuses a file{named}: {error.strerror}. Make room, or choose another folder with "
+            "--out. What has been written stays.",
+            file=sys.stderr,
+        )
+        return 2
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -72,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.executor,
     )
     folder = output_folder(arguments.out, scene.name)
-    warn(scene)
+    warn(scene.warnings())
     with alone(folder):
         built = _built(order, folder / "histories.jsonl")
         print(*map_report.lines(built), sep="\n")

@@ -7,8 +7,8 @@ from contact_core.scene.toml import did_you_mean, shipped_scenes
 from fmu_src.flavours import FLAVOURS
 
 from ..machines import files
-from . import contact, machine
-from .scenes import add_scene
+from . import contact, ensemble, machine
+from .scenes import add_scene, members
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -49,6 +49,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="FMUs of a machine: 'native' ones are C, built when it starts, and fast, for contacts at the regression "
         "level; default: 'embedded', in an exported file 'isolated'",
     )
+    parser.add_argument(
+        "--processes", metavar="N", type=int, help="processes for the members of an ensemble of surfaces (default: 1)"
+    )
     parser.add_argument("--ssp", metavar="FILE.ssp", help="export a machine as SSP 1.0, do not run it")
 
 
@@ -60,6 +63,7 @@ def run(arguments: argparse.Namespace) -> int:
                 f"--fields keeps maps of the one contact of a scene, and '{arguments.scene}' is a machine. Leave it "
                 "out, or run a scene of one of its contacts."
             )
+        _refuse_processes(arguments, "a machine")
         return machine.run(arguments)
     _check_name(arguments.scene)
     if arguments.flavour is not None:
@@ -69,7 +73,20 @@ def run(arguments: argparse.Namespace) -> int:
         )
     if arguments.ssp is not None:
         raise ContactError(f"'{arguments.scene}' is one contact, not a machine. Export it with `tribofmu build`.")
+    found = members(arguments)
+    if found is not None:
+        return ensemble.run(arguments, found)
+    _refuse_processes(arguments, "one contact")
     return contact.run(arguments)
+
+
+def _refuse_processes(arguments: argparse.Namespace, what: str) -> None:
+    """Raise ContactError if --processes is given for something that is no ensemble."""
+    if arguments.processes is not None:
+        raise ContactError(
+            f"--processes is for the members of an ensemble (surface_2.files), and '{arguments.scene}' is {what}. "
+            "Leave it out."
+        )
 
 
 def _check_name(name: str) -> None:

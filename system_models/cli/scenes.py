@@ -2,13 +2,15 @@
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
 from contact_core.quantities import UNSOLVED
-from contact_core.scene import Assumed, Scene, told
+from contact_core.scene import Assumed, Scene, ensemble, told
+from contact_core.scene.ensemble import Members
+from contact_core.scene.toml import given
 
 from ..machines import files
 from .console import add_settings, note, refuse_empty
@@ -37,20 +39,32 @@ def add_scene(command: argparse.ArgumentParser, kinds: str) -> None:
     add_settings(command, f"change values of the {kinds}, e.g. tribofilm.model=none surface_2.rq='50 nm'")
 
 
+def members(arguments: argparse.Namespace) -> Members | None:
+    """Return the members of the scene if it is an ensemble."""
+    refuse_machine(arguments.scene)
+    return ensemble.members(given(arguments.scene, settings_of(arguments))[0])
+
+
 def contact(arguments: argparse.Namespace) -> "tuple[Scene, Duty]":
     """Return the scene, large enough for its duty, and the duty."""
+    refuse_machine(arguments.scene)
+    scene, duty, _ = contact_of(arguments, settings_of(arguments))
+    return scene, duty
+
+
+def contact_of(arguments: argparse.Namespace, overrides: dict[str, str]) -> "tuple[Scene, Duty, dict[str, str]]":
+    """Return the scene with overrides, large enough for its duty, the duty, and the overrides that make this scene."""
     from ..run.duty import Duty
 
-    refuse_machine(arguments.scene)
-    overrides = _overrides(arguments)
     scene, assumed = Scene.read(arguments.scene, overrides)
-    duty = Duty.of_scene(scene, _folder_of_duty(arguments))
+    duty = Duty.of_scene(scene, folder_of_duty(arguments))
     largest = max(point.load for point in duty.points)
     if largest > scene.largest_load and any(each.key == "film.domain" for each in assumed):  # a grid for that load
-        scene, assumed = Scene.read(arguments.scene, overrides | {"operation.largest_load": f"{largest!r} N"})
-    _ask_back(scene, arguments.force)
+        overrides = overrides | {"operation.largest_load": f"{largest!r} N"}
+        scene, assumed = Scene.read(arguments.scene, overrides)
+    ask_back(scene, arguments.force)
     tell_assumed(assumed)
-    return duty.sized(scene), duty
+    return duty.sized(scene), duty, overrides
 
 
 def tell_assumed(assumed: Sequence[Assumed]) -> None:
@@ -59,7 +73,7 @@ def tell_assumed(assumed: Sequence[Assumed]) -> None:
         note(told(assumed))
 
 
-def _ask_back(scene: Scene, force: bool) -> None:
+def ask_back(scene: Scene, force: bool) -> None:
     """Raise ContactError for numbers that look like mistakes, unless `force`d; then warn."""
     doubts = scene.doubts()
     if doubts and not force:
@@ -74,9 +88,9 @@ def refuse_machine(name: str) -> None:
         raise ContactError(f"'{name}' is a machine: use `tribofmu run {name}`; with --ssp it exports the FMUs.")
 
 
-def warn(scene: Scene) -> None:
-    """Print the warnings of a scene on stderr."""
-    for warning in scene.warnings():
+def warn(sentences: Iterable[str]) -> None:
+    """Print warnings, such as those of a scene, on stderr."""
+    for warning in sentences:
         print(f"tribofmu: warning: {warning}", file=sys.stderr)
 
 
@@ -108,7 +122,8 @@ def chosen(scene: Scene) -> list[str]:
     ]
 
 
-def _overrides(arguments: argparse.Namespace) -> dict[str, str]:
+def settings_of(arguments: argparse.Namespace) -> dict[str, str]:
+    """Return the overrides of the scene that the options are."""
     refuse_empty(arguments)
     settings = dict(arguments.settings)
     if getattr(arguments, "hours", None):
@@ -133,7 +148,7 @@ def _share(option: str, text: str) -> str:
     return text
 
 
-def _folder_of_duty(arguments: argparse.Namespace) -> Path:
+def folder_of_duty(arguments: argparse.Namespace) -> Path:
     """Return the folder of a duty file: the working folder, or that of the scene's file."""
     if getattr(arguments, "duty", None) or not arguments.scene.endswith(".toml"):
         return Path()

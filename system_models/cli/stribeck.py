@@ -59,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
         _slide_roll_ratio(arguments.srr),
     )
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
-    warn(scene)
+    warn(scene.warnings())
     _introduce(scene, plan)
     curves = Curves(plan)
     with alone(folder):

@@ -1,6 +1,7 @@
 """The command `tribofmu surface-file`: makes a measured surface ready for a scene."""
 
 import argparse
+import itertools
 import re
 from pathlib import Path
 
@@ -16,9 +17,10 @@ _FORMS = ("none", "plane", "curvature")
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.add_argument(
-        "file",
+        "files",
         metavar="FILE",
-        help="heights of an instrument: .al3d, .sdf, .opd, .x3p, .zmg, .sur, .plux, ...",
+        nargs="+",
+        help="heights of an instrument: .al3d, .sdf, .opd, .x3p, .zmg, .sur, .plux, ...; several make an ensemble",
     )
     parser.add_argument(
         "--form",
@@ -50,16 +52,32 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--unit", metavar="UNIT", help="of a file that does not say its own: m, mm, um, nm")
     parser.add_argument("--size", metavar=("X", "Y"), nargs=2, help="of a file that does not say it: '1 mm' '1 mm'")
-    parser.add_argument("--out", metavar="NAME", help="writes NAME.npy and NAME.toml (default: the name of FILE)")
+    parser.add_argument(
+        "--out",
+        metavar="NAME",
+        help="writes NAME.npy and NAME.toml, of several files NAME_1, NAME_2 and so on (default: the name of FILE)",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Read, prepare and write the surface; return 0."""
+    """Read, prepare and write the surfaces, each in the same way; return 0."""
+    folder, names = _out(arguments)
+    written = [_one(arguments, Path(file), folder, name) for file, name in zip(arguments.files, names, strict=True)]
+    if len(written) == 1:
+        print(f"A scene uses it by --set surface_2.set='{written[0]}:{names[0]}', or set = ... in its [surface_2].")
+        return 0
+    listed = ", ".join(f'"{file}"' for file in written)
+    print(f"An ensemble of them, which `tribofmu run` runs with a band, in a scene:\n\n[surface_2]\nfiles = [{listed}]")
+    print(f"\nor by --set surface_2.files={','.join(map(str, written))}")
+    return 0
+
+
+def _one(arguments: argparse.Namespace, file: Path, folder: Path, name: str) -> Path:
+    """Read, prepare and write one surface, say what was done; return the file of its set."""
     from ..instruments import patch, surface_file, surface_set
 
-    folder, name = _out(arguments)
     size = tuple(_length(text, "--size") for text in arguments.size) if arguments.size else None
-    image = surface_file.read(Path(arguments.file), arguments.unit, size)  # type: ignore[arg-type]
+    image = surface_file.read(file, arguments.unit, size)  # type: ignore[arg-type]
     if arguments.window:
         image = image.window(*(_window(text) for text in arguments.window))
     if arguments.along == "y":
@@ -73,17 +91,30 @@ def run(arguments: argparse.Namespace) -> int:
     print(*surface_set.lines(image, found), sep="\n")
     written = surface_set.write(name, folder, image, found)
     print(f"Written: {', '.join(map(str, written))}")
-    print(f"A scene uses it by --set surface_2.set='{written[1]}:{name}', or set = ... in its [surface_2].")
-    return 0
+    return written[1]
 
 
-def _out(arguments: argparse.Namespace) -> tuple[Path, str]:
-    """Return the folder and the name of the set, in small letters as sets are."""
-    given = Path(arguments.out or Path(arguments.file).stem)
-    name = re.sub(r"[^a-z0-9_-]+", "_", given.name.lower()) if not arguments.out else given.name
-    if not _NAME.match(name):
-        raise ContactError(f"--out = '{arguments.out}' must end in a name of small letters, digits, '_' and '-'.")
-    return output_folder(str(given.parent), ""), name
+def _out(arguments: argparse.Namespace) -> tuple[Path, list[str]]:
+    """Return the folder and the names of the sets, in small letters as sets are."""
+    files = [Path(file) for file in arguments.files]
+    given = Path(arguments.out or files[0].stem)
+    if arguments.out:
+        if not _NAME.match(given.name):
+            raise ContactError(f"--out = '{arguments.out}' must end in a name of small letters, digits, '_' and '-'.")
+        many = [f"{given.name}_{number}" for number in range(1, len(files) + 1)]
+        names = many if len(files) > 1 else [given.name]
+    else:
+        names = [re.sub(r"[^a-z0-9_-]+", "_", file.stem.lower()) for file in files]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise ContactError(f"Two files would be written as '{twice}'. Give --out NAME, for NAME_1, NAME_2 and so on.")
+    folder = output_folder(str(given.parent), "")
+    for name, file in itertools.product(names, files):
+        if (folder / f"{name}.npy").resolve() == file.resolve():
+            raise ContactError(
+                f"'{file}' itself would be replaced by the prepared heights. Give another name by --out."
+            )
+    return folder, names
 
 
 def _length(text: str, option: str) -> float:

@@ -25,7 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
         settings["film.points"] = arguments.grid
     scene, assumed = Scene.read(arguments.scene, settings)
     tell_assumed(assumed)
-    warn(scene)
+    warn(scene.warnings())
     print(f"Grid of {scene.film.points} nodes, {1e6 * scene.film.spacing:.3g} um apart")
     surfaces = (scene.surface_1, scene.surface_2)
     for body, (surface, below) in enumerate(zip(surfaces, microroughness(scene), strict=True), 1):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
 
+from .alive import alive
 from .console import add_settings, output_folder
 from .map import executor_arguments, processes_of
 from .scenes import refuse_machine
@@ -58,11 +59,11 @@ def run(arguments: argparse.Namespace) -> int:
     duty = Path(arguments.scene).parent if arguments.scene.endswith(".toml") else Path()
     task = Task(arguments.scene, tuple(arguments.settings), duty, output_folder(str(folder / "points"), ""))
     with alone(folder):
-        outcomes = _solved(task, plan, processes_of(arguments.processes), arguments.executor)
+        outcomes = solved_with_bar(task, plan, processes_of(arguments.processes), arguments.executor)
         return _report(task, plan, outcomes, folder)
 
 
-def _solved(task: "Task", plan: "Plan", processes: int, executor: str | None) -> "dict[int, Outcome]":
+def solved_with_bar(task: "Task", plan: "Plan", processes: int, executor: str | None) -> "dict[int, Outcome]":
     """Run the points, with a counter of them."""
     from math import prod
 
@@ -73,10 +74,10 @@ def _solved(task: "Task", plan: "Plan", processes: int, executor: str | None) ->
     bar = tqdm(
         total=prod(plan.shape),
         desc=Path(task.scene).stem,
-        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} runs [{elapsed}<{remaining}]",
+        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} runs [{elapsed}<{remaining}{postfix}]",
     )
     try:
-        with bar:
+        with bar, alive(bar):
             return solved(task, plan, processes, executor, lambda count: bar.update(count - bar.n))
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"Runs are kept in '{task.folder}': the same command goes on from there.") from None
@@ -104,7 +105,8 @@ def _means(plan: "Plan", dataset: "xr.Dataset", folder: Path) -> list[Path]:
     """Write means and bands over patches of a surface, if the plan has some."""
     from ..store.results import write_csv
     from ..sweep import ensemble, report
+    from ..sweep.points import ends
 
     if not ensemble.patches_of(plan):
         return []
-    return [write_csv(ensemble.averaged(plan, dataset, report.OUTPUTS), folder / "patches.csv")]
+    return [write_csv(ensemble.averaged(plan, ends(dataset), report.OUTPUTS), folder / "patches.csv")]

@@ -7,6 +7,7 @@
     panels      which quantities of a contact are drawn, and in which words
     summary     the end values and what to think of them
     scene       the scene as it was run; what was modelled and what was not
+    ensemble    an ensemble of surfaces: its mean, its band, its members
     histories   quantities against time, of one contact, of a machine's parts and of each of its contacts
     maps        maps at times of the run as data of the page, profiles across the track
     machine     report and pictures of a machine, and its states solved again

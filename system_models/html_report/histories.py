@@ -13,8 +13,9 @@ from .trust import invalid
 
 BANDS = (
     "The shaded band around a line is its stated error, the half width of a 95 % interval to either side: the wider "
-    "the band, the less the line says. A line without a band is a quantity for which no error is stated. Grey "
-    "stretches are rows that are not valid. Move the pointer over a chart to read values."
+    "the band, the less the line says; of an ensemble the scatter of its surfaces is in it. A line without a band is a "
+    "quantity for which no error is stated. Grey stretches are rows that are not valid. Move the pointer over a chart "
+    "to read values."
 )
 _TOGETHER = len(COLOURS)  # lines in a chart
 _MOST = 16  # charts of a machine's parts

@@ -26,6 +26,8 @@ from ..run.duty import Duty
 from ..run.fields import Fields
 from ..store.checkpoint import Checkpoint
 from ..store.results import to_dataset, with_half_widths
+from ..sweep.members import ATTRIBUTE as ENSEMBLE
+from ..sweep.members import FILE as MEMBERS
 
 _CONTACT = "contact."  # before the variables of a contact's checkpoint
 _OF_RUN = ("version", "duty", "fields")  # of its identity; the rest is the scene
@@ -52,6 +54,7 @@ class Run:
     machine: Machine | None = None
     causes: Causes = field(default_factory=dict)  # half widths of the errors at the end, by output and cause
     files: Mapping[str, str] = field(default_factory=dict)  # sha256 by name
+    members: xr.Dataset | None = None  # of an ensemble of surfaces, whose mean `dataset` is
     notes: tuple[str, ...] = ()  # what could not be read, and what follows from it
 
     @property
@@ -113,10 +116,27 @@ def _finished(folder: Path, result: Path) -> Run:
         name.name: _sha256(name) for name in (result, folder / "resolved.nc", folder / "corrected.nc") if name.exists()
     }
     run = Run(folder, dataset, float(dataset.variables["time"].values[-1]), True, files=files)
+    if ENSEMBLE in dataset.attrs:
+        run = _with_members(run)
     if "scene_json" in dataset.attrs:
         found = json.loads(dataset.attrs.get(ERRORS, "{}"))
         return _with_scene(replace(run, causes=found), json.loads(dataset.attrs["scene_json"]))
     return _with_machine(run)
+
+
+def _with_members(run: Run) -> Run:
+    """Return the run of an ensemble with the results of its members, or with a note if they are not there."""
+    file = run.folder / f"{MEMBERS}.nc"
+    try:
+        with xr.open_dataset(file, engine="h5netcdf", decode_times=False) as opened:
+            found = opened.load()
+    except (OSError, ValueError):
+        note = (
+            f"This is the mean of an ensemble of surfaces, but the results of its members, {file.name}, are not there."
+        )
+        return replace(run, notes=(*run.notes, note))
+    note = "This is the mean of an ensemble of surfaces; the scene below is that of its first member."
+    return replace(run, members=found, files={**run.files, file.name: _sha256(file)}, notes=(*run.notes, note))
 
 
 def _plain(value: Any) -> Any:

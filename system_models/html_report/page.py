@@ -4,7 +4,7 @@ import re
 from importlib.resources import files
 from string import Template
 
-from . import histories, machine, maps, origin, scene, summary, trust
+from . import ensemble, histories, machine, maps, origin, scene, summary, trust
 from .markup import text
 from .opened import Run
 
@@ -12,7 +12,7 @@ _HEADING = re.compile(r'<section id="([\w-]+)"><h2>(.*?)</h2>')
 
 _SHORT = {  # in the navigation, where the heading of a section is long
     "maps": "Maps", "profiles": "Profiles", "errors": "Errors", "scene": "As run", "modelled": "What was modelled",
-    "machine": "Machine", "origin": "Versions",
+    "machine": "Machine", "origin": "Versions", "ensemble": "Ensemble",
 }  # fmt: skip
 
 
@@ -21,6 +21,7 @@ def page(run: Run) -> str:
     body = "".join(
         (
             summary.summary(run),
+            ensemble.sections(run),
             histories.sections(run),
             maps.sections(run),
             machine.sections(run),

@@ -8,7 +8,7 @@ import xarray as xr
 
 from contact_core.quantities import TABLE
 
-from ..store.results import ERROR
+from ..store.results import ERROR, half_width
 from .chart import Array, Chart, Line
 from .shown import Unit, time_unit, unit_for
 
@@ -151,8 +151,6 @@ def values(dataset: xr.Dataset, name: str) -> Array:
 
 
 def band(dataset: xr.Dataset, name: str, unit: Unit) -> Array | None:
-    """Return the half width of a variable's error band in a unit, if the result has it."""
-    stated = f"{name}{ERROR}"
-    return (
-        unit.factor * np.asarray(dataset.variables[stated].values, dtype=float) if stated in dataset.variables else None
-    )
+    """Return the half width of a variable's band in a unit, if the result has it."""
+    half = half_width(dataset, name)
+    return None if half is None else unit.factor * half

@@ -1,8 +1,9 @@
 """Columns of the text logs of test rigs: which is which quantity, in which unit.
 
-No specification of these exports is public. The names are those of headers that programs of users look for: "Rolling
-Speed (mm/s)", "Average Film (nm)", "Traction Coeff (-)", "Lube Temp (°C)", "Ball Load (N)", "SRR (%)", "Step Time (s)"
-of the text files of PCS Instruments' MTM and EHD rigs. Users add others.
+No specification of these exports is public. The names are those of exports of PCS Instruments' MTM, ETM and EHD rigs
+that users have published, such as the test data of the Python package `tribology` (M. Ploss, 2019, MIT licence):
+"Rolling Speed (mm/s)", "Average Film (nm)", "Traction Coeff (-)", "Lube Temp (°C)", "Pot RTD Temp (degC)". Users add
+others.
 """
 
 import re
@@ -14,8 +15,11 @@ from contact_core.quantities import TABLE
 from contact_core.scene import units
 from contact_core.scene.toml import did_you_mean
 
-# beside the inputs and outputs of a contact: what a rig says about speeds
-OF_RIGS = {"time": "s", "rolling_speed": "m/s", "sliding_speed": "m/s", "srr": "1"}
+# beside the inputs and outputs of a contact: what a rig says about speeds. Those of ball and disc, which have no unit
+# in exports, tell which body is faster
+OF_RIGS = {
+    "time": "s", "rolling_speed": "m/s", "sliding_speed": "m/s", "srr": "1", "ball_speed": "1", "disc_speed": "1"
+}  # fmt: skip
 
 # name of a column in small letters: its quantity. Where two name one quantity, the first of this list is taken
 NAMES = {
@@ -27,10 +31,13 @@ NAMES = {
     "load": "load",
     "normal load": "load",
     "applied load": "load",
+    "pin load": "load",
     "rolling speed": "rolling_speed",
     "mean speed": "rolling_speed",
     "entrainment speed": "rolling_speed",
     "sliding speed": "sliding_speed",
+    "ball speed 1": "ball_speed",
+    "disc speed 1": "disc_speed",
     "srr": "srr",
     "slide roll ratio": "srr",
     "slide-roll ratio": "srr",
@@ -41,8 +48,10 @@ NAMES = {
     "friction coefficient": "friction_coefficient",
     "lube temp": "temperature",
     "lubricant temp": "temperature",
+    "lube rtd temp": "temperature",
     "oil temp": "temperature",
     "pot temp": "temperature",
+    "pot rtd temp": "temperature",
     "temperature": "temperature",
     "average film": "h_c",
     "film thickness": "h_c",
@@ -55,15 +64,21 @@ NOT_TAKEN = {
     "ball speed": "rolling speed and slide-to-roll ratio say it; else name it as speed_1",
     "disc speed": "rolling speed and slide-to-roll ratio say it; else name it as speed_2",
     "traction force": "the coefficient says it, without a sign of its own",
+    r"tf\d": "the coefficient says it, without a sign of its own",
     "friction force": "the coefficient says it, without a sign of its own",
     "wear": "it is the approach of both bodies, by wear of either, films and heat; name it as wear_depth_1 or "
     "wear_depth_2 if one alone wears",
     "ecr": "the contact has no such output; it is not the share of the load that solids carry",
+    "rolling (force|coeff)": "the friction coefficient here is of sliding, by the traction force",
+    "standard deviation": "it is of the average beside it",
+    "disc frequency|traction trace|sd repeat number|user repeat number": "it is of the rig, not of the contact",
+    "order|lube ref index|average wavelength|image file name": "it is of the interferometer, not of the contact",
 }
+
 _HEADER = re.compile(r"\s*(.*?)\s*(?:[\[(]([^\[\]()]*)[\])])?\s*$")
 _NAMED = re.compile(r"\s*(\w*)\s*(?:\[([^\]]*)\])?\s*$")
 _UNITS = {"-": "1", "°c": "degC", "degc": "degC", "deg c": "degC", "c": "degC", "secs": "s", "sec": "s", "mins": "min"}
-_NUMBERS = {"friction_coefficient"}  # quantities that need no unit
+_NUMBERS = {"friction_coefficient", "ball_speed", "disc_speed"}  # quantities that need no unit
 
 
 @dataclass(frozen=True)
@@ -108,10 +123,13 @@ def named(texts: Sequence[str]) -> dict[str, tuple[str, str | None]]:
     return found
 
 
-def taken(headers: Sequence[str], names: Mapping[str, tuple[str, str | None]]) -> tuple[list[Column | None], list[str]]:
+def taken(
+    headers: Sequence[str], names: Mapping[str, tuple[str, str | None]], filled: Sequence[bool]
+) -> tuple[list[Column | None], list[str]]:
     """Return the column that each header is, None of one that is not taken, and a sentence on each of these.
 
-    `names` are those of `named`. Raises ContactError for a unit that is not said or cannot be that of the quantity.
+    `names` are those of `named`; `filled` says which columns have numbers: exports repeat columns and leave some empty.
+    Raises ContactError for a unit that is not said or cannot be that of the quantity.
     """
     rank = {name: i for i, name in enumerate(NAMES)}
     best: dict[str, tuple[int, int]] = {}  # of each quantity: rank and place
@@ -121,12 +139,12 @@ def taken(headers: Sequence[str], names: Mapping[str, tuple[str, str | None]]) -
         own = names.get(" ".join(header.split()).lower(), names.get(name))
         told.append((NAMES.get(name, ""), unit) if own is None else (own[0], own[1] if own[1] is not None else unit))
         quantity = told[-1][0]
-        if quantity:
+        if quantity and filled[i]:
             best[quantity] = min(best.get(quantity, (len(rank), i)), (-1 if own else rank[name], i))
     columns: list[Column | None] = []
     left: list[str] = []
     for i, (header, (quantity, unit)) in enumerate(zip(headers, told, strict=True)):
-        chosen = bool(quantity) and best[quantity][1] == i
+        chosen = quantity in best and best[quantity][1] == i
         columns.append(_column(header, quantity, unit) if chosen else None)
         if not chosen and header.strip():
             left.append(f"'{header.strip()}': {_why(header, quantity, names, headers, best)}")
@@ -173,6 +191,8 @@ def _why(
 ) -> str:
     """Return why a column is not taken."""
     name = _parts(header)[0]
+    if quantity and quantity not in best:
+        return "it is empty"
     if quantity:
         return f"'{headers[best[quantity][1]].strip()}' is taken for {quantity}"
     if name in names or " ".join(header.split()).lower() in names:

@@ -5,12 +5,12 @@
     0              100.1                 50.0     0.081
 
 A table begins with a line in which a column is known and ends with the first line that is no row of it. Cells are apart
-by tabs, semicolons or commas.
+by tabs, semicolons or commas. A line "Step type	FILM	..." says what a step is.
 """
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -21,6 +21,8 @@ from .log_columns import Column
 
 _NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$")
 _TITLE = re.compile(r"\s*step\b(?!\s*(time|type))", re.IGNORECASE)
+_KIND = re.compile(r"\s*step type\W+(\w+)", re.IGNORECASE)
+_MAPPER = "SLIM Mapper Analysis File"  # first line of another kind of file of the same rigs
 
 
 @dataclass
@@ -30,6 +32,7 @@ class Step:
     title: str
     columns: list[Column | None]
     rows: list[dict[str, float]] = field(default_factory=list)
+    kind: str = ""  # as the log has it, such as FILM, Traction or BOD_TIMED
 
     def has(self, quantity: str) -> bool:
         """Return whether a quantity is in the table."""
@@ -60,31 +63,53 @@ def read(path: Path, names: Mapping[str, tuple[str, str | None]]) -> Log:
     except OSError as error:
         raise ContactError(f"The log '{path}' cannot be read: {error.strerror}.") from None
     lines = _text(content).splitlines()
+    _refuse_mapper(path, lines)
     mark = next((mark for mark in "\t;" if any(_is_header(line, mark, names) for line in lines)), ",")
     _check_decimals(path, lines, mark)
     steps: list[Step] = []
     left: dict[str, None] = {}
-    title, step = "", None
-    for line in lines:
-        cells = [cell.strip().strip('"') for cell in line.split(mark)]
-        if step is not None and _is_row(cells):
-            step.rows.append(_row(cells, step.columns))
-            continue
-        step = None
-        if _TITLE.match(line) and not _is_header(line, mark, names):
-            title = " ".join(line.split())
-        elif _is_header(line, mark, names):
-            columns, sentences = log_columns.taken(cells, names)
-            left |= dict.fromkeys(sentences)
-            step = Step(title, columns)
-            steps.append(step)
-    steps = [step for step in steps if step.rows]
+    for title, kind, headers, rows in _tables(lines, mark, names):
+        filled = [any(_NUMBER.match(row[i]) for row in rows if i < len(row)) for i in range(len(headers))]
+        columns, sentences = log_columns.taken(headers, names, filled)
+        left |= dict.fromkeys(sentences)
+        steps.append(Step(title, columns, [_row(cells, columns) for cells in rows], kind))
     if not steps:
         raise ContactError(
             f"'{path}' has no table with a known column, such as 'Rolling Speed (mm/s)' or 'Traction Coeff (-)'. "
             "Export it as text with headers, or name its columns by --column 'HEADER=QUANTITY [unit]'."
         )
     return Log(path.name, steps, list(left))
+
+
+def _tables(
+    lines: list[str], mark: str, names: Mapping[str, tuple[str, str | None]]
+) -> Iterator[tuple[str, str, list[str], list[list[str]]]]:
+    """Yield title and kind of the step, headers and rows of each table that has rows."""
+    title, kind, headers, rows = "", "", [""], list[list[str]]()
+    for line in [*lines, ""]:
+        cells = [cell.strip().strip('"') for cell in line.split(mark)]
+        if headers != [""] and _is_row(cells):
+            rows.append(cells)
+            continue
+        if rows:
+            yield title, kind, headers, rows
+        headers, rows = [""], []
+        if found := _KIND.match(line):  # before headers: FILM is a name of a column, too
+            kind = found[1]
+        elif _is_header(line, mark, names):
+            headers = cells
+        elif _TITLE.match(line):
+            title, kind = " ".join(line.split()), ""
+
+
+def _refuse_mapper(path: Path, lines: list[str]) -> None:
+    """Raise ContactError for an analysis of a mapper's images, which has a thickness for each pixel."""
+    if lines and lines[0].strip().startswith(_MAPPER):
+        raise ContactError(
+            f"'{path}' is an analysis of a mapper's images: the tribofilm on the ball at each pixel, without a time. "
+            "Take the mean of each image, write it beside the time of its step as a table with columns "
+            "'Step Time (s)' and 'Film (nm)', and name that by --column 'Film=tribofilm_1 [nm]'."
+        )
 
 
 def _text(content: bytes) -> str:

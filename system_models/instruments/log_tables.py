@@ -15,13 +15,16 @@ import numpy as np
 
 from contact_core.errors import ContactError
 
+from .log_columns import OF_RIGS
 from .log_file import Log, Step
 
 INPUTS = {"load": "N", "speed_1": "m/s", "speed_2": "m/s", "temperature": "degC"}  # in the order of columns
 _HELD = {"load": 0.03, "rolling_speed": 0.03, "srr": 0.05, "speed_1": 0.03, "speed_2": 0.03}  # relative scatter
 _HELD_SRR, _HELD_K = 0.01, 1.5  # absolute: of the slide-to-roll ratio, and of temperature [K]
+_ROLLING = 1e-3  # assumed: slide-to-roll ratio that a rig does not tell from pure rolling
 _DIGITS = 3  # of inputs that a step changes
-_OF_SPEEDS = ("rolling_speed", "sliding_speed", "srr", "speed_1", "speed_2", "time", *INPUTS)
+_OF_SPEEDS = (*OF_RIGS, *INPUTS)
+_PIN = "pod"  # beginning of the kind of a step with a pin that stands still
 _DISPLAY = {"h_c": ("nm", 1e9), "friction_coefficient": ("1", 1.0)}
 
 
@@ -34,11 +37,12 @@ class Row:
     measured: dict[str, float]
 
 
-def rows_of(log: Log, chosen: Sequence[int], faster: int, srr: float | None) -> list[Row]:
+def rows_of(log: Log, chosen: Sequence[int], faster: int | None, srr: float | None) -> list[Row]:
     """Return the rows of the steps of some numbers, from 1, of all without any.
 
-    `faster` is the body that a positive slide-to-roll ratio makes the faster one; `srr` is the ratio of a log that does
-    not say it. Raises ContactError for a step that is not there, or speeds that are not told.
+    `faster` is the body that a positive slide-to-roll ratio makes the faster one, without it that of `faster_of`; `srr`
+    is the ratio of a log that does not say it. Raises ContactError for a step that is not there, or speeds that are not
+    told.
     """
     bad = [number for number in chosen if not 1 <= number <= len(log.steps)]
     if bad:
@@ -48,7 +52,7 @@ def rows_of(log: Log, chosen: Sequence[int], faster: int, srr: float | None) -> 
     begin = 0.0
     for step in steps:
         times = _times(step)
-        speeds = _speeds(log, step, faster, srr)
+        speeds = _speeds(log, step, faster or faster_of(step) or 1, srr)
         held = _held(step, speeds)
         for k, row in enumerate(step.rows):
             inputs = {name: held[name][k] for name in INPUTS if name in held}
@@ -111,12 +115,22 @@ def _times(step: Step) -> list[float]:
     return [row["time"] for row in step.rows]
 
 
+def faster_of(step: Step) -> int:
+    """Return the body that a positive slide-to-roll ratio makes faster, by ball and disc speeds; 0: not told."""
+    name = "srr" if step.has("srr") else "sliding_speed"
+    if not (step.has("ball_speed") and step.has("disc_speed") and step.has(name)):
+        return 0
+    table = np.array([[row["ball_speed"] - row["disc_speed"], row[name]] for row in step.rows])
+    told = float(np.nansum(table[:, 0] * table[:, 1]))
+    return 0 if told == 0.0 else 1 if told > 0.0 else 2
+
+
 def _speeds(log: Log, step: Step, faster: int, srr: float | None) -> dict[str, list[float]]:
     """Return rolling speed and slide-to-roll ratio (speed_1 - speed_2 over their mean), or both speeds, of each row."""
     if step.has("speed_1") and step.has("speed_2"):
         return {name: [row[name] for row in step.rows] for name in ("speed_1", "speed_2")}
     if not step.has("rolling_speed"):
-        return {}
+        return _of_sliding(log, step, faster, srr) if step.has("sliding_speed") else {}
     sign = 1.0 if faster == 1 else -1.0
     rolling = [row["rolling_speed"] for row in step.rows]
     if step.has("srr"):
@@ -131,6 +145,25 @@ def _speeds(log: Log, step: Step, faster: int, srr: float | None) -> dict[str, l
             "--srr '0 %' of pure rolling."
         )
     return {"rolling_speed": rolling, "srr": ratio}
+
+
+def of_pin(step: Step) -> bool:
+    """Return whether the step says that body 1 is a pin that stands still."""
+    return step.kind.lower().startswith(_PIN)
+
+
+def _of_sliding(log: Log, step: Step, faster: int, srr: float | None) -> dict[str, list[float]]:
+    """Return speeds of rows that have the sliding speed alone: of a pin that stands still, or by the ratio `srr`."""
+    sliding = [abs(row["sliding_speed"]) for row in step.rows]
+    if of_pin(step):
+        return {"speed_1": [0.0] * len(sliding), "speed_2": sliding}
+    if not srr:
+        raise ContactError(
+            f"'{log.name}' has a sliding speed, but neither a rolling speed nor a slide-to-roll ratio. Give --srr: "
+            "'200 %' if one body stands still, and by --faster the one that moves."
+        )
+    sign = 1.0 if faster == 1 else -1.0
+    return {"rolling_speed": [x / abs(srr) for x in sliding], "srr": [sign * abs(srr)] * len(sliding)}
 
 
 def _held(step: Step, speeds: dict[str, list[float]]) -> dict[str, list[float]]:
@@ -157,6 +190,8 @@ def _steady(name: str, values: np.ndarray) -> np.ndarray:
 def _rounded(name: str, x: float) -> float:
     if name == "temperature":
         return round(x - 273.15, 1) + 273.15
+    if name == "srr" and abs(x) < _ROLLING:
+        return 0.0
     return float(f"{x:.{_DIGITS}g}")
 
 

@@ -1,6 +1,7 @@
 """Reads the formats that instruments write for surfaces, by SurfaceTopography (the extra `surfaces`)."""
 
 import hashlib
+import io
 import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -11,10 +12,14 @@ import numpy as np
 from contact_core.errors import ContactError
 from contact_core.scene import units
 
+from . import text_heights
 from .image import LEAST, HeightImage
 
 _TOLD = ("instrument", "acquisition_time", "software", "comment")  # of what a file says beside its heights
 _LONGEST = 200  # characters of a remark
+_ARRAYS = ("npy", "npz", "mat", "h5")  # arrays alone: as files of heights of scenes, with rows along x
+_ANGSTROM = ("\u00c5", "\u212b", "A", "angstrom")
+_POINT = 3  # numbers in a line of x, y, z
 
 
 def read(path: Path, unit: str | None = None, size: tuple[float, float] | None = None) -> HeightImage:
@@ -37,39 +42,79 @@ def read(path: Path, unit: str | None = None, size: tuple[float, float] | None =
         content = path.read_bytes()
     except OSError as error:
         raise ContactError(f"The file '{path}' cannot be read: {error.strerror}.") from None
+    digest, text = hashlib.sha256(content).hexdigest(), path.suffix.lower() in text_heights.SUFFIXES
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            reader = open_topography(str(path))
+            # it leaves files of arrays open
+            reader = open_topography(io.BytesIO(content) if path.suffix == ".npy" else str(path))
             channel = reader.default_channel
-            asked = _asked(path, channel.unit, channel.physical_sizes, unit, size)
+            if text and len(channel.nb_grid_pts) == 2 and _POINT in channel.nb_grid_pts:
+                raise ValueError("lines of x, y and z")
+            array = reader.format() in _ARRAYS  # with y as the first index, for this library it is x
+            asked = _asked(path, channel.unit, channel.physical_sizes, unit, size[::-1] if size and array else size)
             topography = channel.topography(**asked)
             heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), np.nan)
     except ContactError:
         raise
     except Exception as error:  # of some forty readers, each with errors of its own
-        said = str(error) or type(error).__name__
+        found = text_heights.read(content) if text else None
+        if found is not None:
+            return _of_text(path, digest, found, unit, size)
+        said = " ".join(str(error).split()) or type(error).__name__
+        if len(said) > _LONGEST:
+            said = "its format is none that is known, or it is damaged"
         raise ContactError(
             f"SurfaceTopography {SurfaceTopography.__version__} cannot read '{path}': {said}. Export the surface as "
             ".x3p (ISO 25178-72) or .sdf (ISO 25178-71)."
         ) from None
     if topography.dim != 2 or not topography.is_uniform or min(heights.shape) < LEAST:
-        raise ContactError(
-            f"'{path}' has no image of heights but the shape {heights.shape}; {LEAST} points or more are needed each "
-            "way. A profile does not say what a surface is like across it: measure an area."
-        )
-    factor, dimension = units.unit(_ascii(topography.unit))
-    if dimension[:4] != (1, 0, 0, 0):
-        raise ContactError(f"'{path}' has heights in '{topography.unit}', which is no length. Export heights.")
+        raise ContactError(_no_image(path, heights.shape))
+    factor = _length(path, topography.unit)
     dx, dy = (factor * float(step) for step in topography.pixel_size)
     return HeightImage(
-        heights=factor * heights.T,
-        spacing=(dy, dx),
+        heights=factor * (heights if array else heights.T),
+        spacing=(dx, dy) if array else (dy, dx),
         source=path.name,
-        digest=hashlib.sha256(content).hexdigest(),
-        format=f"{reader.name()} (.{reader.format()}), by SurfaceTopography {SurfaceTopography.__version__}",
+        digest=digest,
+        format=f"{reader.name()} (.{reader.format()}), by SurfaceTopography {SurfaceTopography.__version__}"
+        + ("; its first index is taken along y" if array else ""),
         remarks={"channel": str(channel.name), **dict(_remarks(topography.info))},
     )
+
+
+def _of_text(
+    path: Path, digest: str, found: text_heights.TextHeights, unit: str | None, size: tuple[float, float] | None
+) -> HeightImage:
+    """Return the image of heights in text, which never says its unit."""
+    asked = _asked(path, None, None if found.spacing is None else "as its points say,", unit, size)
+    ny, nx = found.heights.shape
+    if min(ny, nx) < LEAST:
+        raise ContactError(_no_image(path, found.heights.shape))
+    factor = _length(path, asked["unit"])
+    dx, dy = (length / n for length, n in zip(asked["physical_sizes"], (nx, ny), strict=True)) if size else (0.0, 0.0)
+    spacing = (dy, dx) if found.spacing is None else found.spacing
+    kind = "matrix of numbers" if found.spacing is None else "points x, y, z on a lattice"
+    return HeightImage(
+        factor * found.heights, (factor * spacing[0], factor * spacing[1]), path.name, digest, f"text, {kind}"
+    )
+
+
+def _no_image(path: Path, shape: tuple[int, ...]) -> str:
+    return (
+        f"'{path}' has no image of heights but the shape {shape}; {LEAST} points or more are needed each "
+        "way. A profile does not say what a surface is like across it: measure an area."
+    )
+
+
+def _length(path: Path, unit: str) -> float:
+    """Return a unit of length in m. Raises ContactError for another unit."""
+    if unit in _ANGSTROM:
+        return 1e-10
+    factor, dimension = units.unit(_ascii(unit))
+    if dimension[:4] != (1, 0, 0, 0):
+        raise ContactError(f"'{path}' has heights in '{unit}', which is no length. Export heights.")
+    return factor
 
 
 def _asked(
@@ -88,7 +133,7 @@ def _asked(
     if own_size is not None and size is not None:
         raise ContactError(f"'{path}' says how large it is: {own_size} {own_unit or unit}. Leave --size out.")
     if own_size is None and size is not None:
-        factor = units.unit(_ascii(own_unit or unit or ""))[0]
+        factor = _length(path, own_unit or unit or "")
         asked["physical_sizes"] = tuple(length / factor for length in size)
     return asked
 

@@ -35,4 +35,8 @@ def contact_of(table: Mapping[str, Any]) -> tuple[str, dict[str, str]]:
     if "scene" not in values:
         raise SceneError("contact.scene is missing. It names a shipped scene, or the path of one.")
     base = str(values.pop("scene"))
-    return base, {key: str(item) for key, item in flat(values).items()}
+    return base, {key: _text(item) for key, item in flat(values).items()}
+
+
+def _text(item: Any) -> str:
+    return ",".join(map(str, item)) if isinstance(item, list) else str(item)

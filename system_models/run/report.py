@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from ..store.results import ERROR
+from ..store.results import half_width
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -100,9 +100,10 @@ def _below(dataset: xr.Dataset) -> list[tuple[str, str, str, float, int]]:
 def _stated(dataset: xr.Dataset, name: str, rows: list[int], factor: float, digits: int) -> list[str]:
     """Return values as text, each with the half width of its error where one is stated."""
     values = factor * dataset[name].values[rows]
-    if name not in _WITH_ERRORS or f"{name}{ERROR}" not in dataset.coords:
+    half = half_width(dataset, name) if name in _WITH_ERRORS else None
+    if half is None:
         return [f"{value:.{digits}f}" for value in values]
-    halves = factor * dataset[f"{name}{ERROR}"].values[rows]
+    halves = factor * half[rows]
     return [with_error(value, half, digits) for value, half in zip(values, halves, strict=True)]
 
 
@@ -194,9 +195,10 @@ def _draw(axis: "Axes", dataset: xr.Dataset, label: str, factor: float, lines: t
     for name, legend, colour in lines:
         values = factor * dataset[name].values
         axis.plot(minutes, values, color=colour, linewidth=1.4, label=legend)
-        if f"{name}{ERROR}" in dataset.coords:
-            half = factor * dataset[f"{name}{ERROR}"].values
-            axis.fill_between(minutes, values - half, values + half, color=colour, alpha=0.2, linewidth=0.0)
+        half = half_width(dataset, name)
+        if half is not None:
+            low, high = values - factor * half, values + factor * half
+            axis.fill_between(minutes, low, high, color=colour, alpha=0.2, linewidth=0.0)
     for start, end, valid in zip(minutes[:-1], minutes[1:], dataset["valid"].values[1:], strict=True):
         if not valid:
             axis.axvspan(start, end, color="0.85", linewidth=0.0)

@@ -13,6 +13,7 @@ from contact_core.quantities import UNSOLVED
 from contact_core.scene import Case, OperatingPoint, Scene
 from contact_core.state import Error
 
+from ..store.results import half_width
 from . import flags
 from .duty import Duty
 
@@ -133,10 +134,10 @@ def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
     return [f"Grid: {nodes:.1f} nodes across the contact; below {_FEW:g} the film is one of the grid. Take {finer}."]
 
 
-def legend() -> list[str]:
-    """Return what the columns of the table are."""
+def legend(halves: str = "error (95 %)") -> list[str]:
+    """Return what the columns of the table are; halves: what stands behind +-."""
     columns = "; ".join(f"{heading}: {meaning}" for heading, meaning in _LEGEND.items())
-    return wrapped(f"Columns: {columns}; +-: error (95 %).")
+    return wrapped(f"Columns: {columns}; +-: {halves}.")
 
 
 def after(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> list[str]:
@@ -179,7 +180,7 @@ def _stated(dataset: xr.Dataset, errors: Mapping[str, Error]) -> list[tuple[str,
 
 def _half(last: xr.Dataset, name: str, absolute: bool) -> float | None:
     """Return the half width of an output's error, relative or absolute; None of an output that is zero."""
-    half, value = float(last[f"{name}_error"]), abs(float(last[name]))
+    half, value = float(half_width(last, name)), abs(float(last[name]))  # type: ignore[arg-type]
     if absolute:
         return half
     return half / value if value > 0.0 else None

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from contact_core.quantities import ABSOLUTE, STATED
 
 ERROR = "_error"  # after the name of an output: the half width of its error
+BAND = "_band"  # after the name of an output of an ensemble: the half width of its mean by the scatter of the members
 
 
 def to_dataset(
@@ -50,6 +51,19 @@ def with_half_widths(dataset: xr.Dataset) -> xr.Dataset:
     for name in halves:
         found.variables[name].attrs["ancillary_variables"] = f"{name}{ERROR}"
     return found
+
+
+def half_width(dataset: xr.Dataset, name: str) -> np.ndarray | None:
+    """Return the half width of an output by its stated error and, of an ensemble, by the scatter of the members.
+
+    In the output's unit, along its dimensions; None where neither is known.
+    """
+    found = [
+        np.asarray(dataset.variables[key].values, dtype=float)
+        for key in (f"{name}{ERROR}", f"{name}{BAND}")
+        if key in dataset.variables
+    ]
+    return (found[0] if len(found) == 1 else np.hypot(*found)) if found else None
 
 
 def find(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:

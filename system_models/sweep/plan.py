@@ -32,11 +32,16 @@ class Factor:
     high: float = 0.0
     unit: str = ""
     logarithmic: bool = False
+    together: tuple[tuple[tuple[str, str], ...], ...] = ()  # of each choice: what it sets, if not the key to itself
 
     @property
     def sampled(self) -> bool:
         """True for a range that samples fill."""
         return not self.choices
+
+    def settings(self, place: int) -> dict[str, str]:
+        """Return what a choice sets, by dotted key."""
+        return dict(self.together[place]) if self.together else {self.key: self.choices[place]}
 
     def at(self, share: float) -> float:
         """Return the value at a share, 0 to 1, of the range."""
@@ -82,7 +87,9 @@ class Plan:
     def points(self) -> Iterator[Point]:
         """Yield the points, the last axis fastest."""
         for place in itertools.product(*map(range, self.shape)):
-            settings = {factor.key: factor.choices[k] for factor, k in zip(self.grid, place, strict=False)}
+            settings: dict[str, str] = {}
+            for factor, k in zip(self.grid, place, strict=False):
+                settings |= factor.settings(k)
             if self.sampled:
                 row = self.shares[place[-1]]
                 settings |= {f.key: f.text(f.at(float(s))) for f, s in zip(self.sampled, row, strict=True)}

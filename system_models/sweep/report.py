@@ -99,7 +99,7 @@ def lines(plan: Plan, dataset: xr.Dataset, found: list[Indices]) -> list[str]:
 def _means(plan: Plan, dataset: xr.Dataset) -> list[str]:
     """Return a heading and the table of means over patches, a row for each choice of the other keys."""
     keys = patches_of(plan)
-    found = averaged(plan, dataset, [column[2] for column in shown(dataset)])
+    found = averaged(plan, ends(dataset), [column[2] for column in shown(dataset)])
     others = [factor for factor in plan.grid if factor.key not in keys]
     counts = found["count"].values.ravel()
     if plan.sampled or counts.size > _MOST_ROWS:

@@ -1,3 +1,4 @@
+import resource
 import subprocess
 import sys
 from importlib import resources
@@ -41,6 +42,20 @@ def test_a_reader_that_has_gone_ends_the_output_quietly() -> None:
         process.stdin.close()  # only now the command writes
         assert process.stderr.read() == b""
     assert process.returncode == 141
+
+
+def test_a_full_disk_is_told_in_a_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    limit = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, limit[1]))
+    try:
+        code = main(["new", "mine"])
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limit)
+    assert code == 2
+    assert "The system refuses a file: File too large. Make room" in capsys.readouterr().err
 
 
 def test_list_does_not_load_what_only_a_run_needs() -> None:

@@ -100,3 +100,93 @@ def test_columns_that_a_user_names_are_taken_with_decimal_commas(
     data = read(Path("rig_data.csv"), Scene.from_toml("mtm_zddp"), "regression")
     assert sorted(data.value) == approx([50.5e-9, 240e-9], rel=1e-9)
     assert sorted(point.speed_2 for point in data.tests) == approx([0.5, 1.0], rel=1e-9)
+
+
+# headers of exports of PCS Instruments' rigs as users have published them; the numbers are invented
+TAIL = (
+    "Ball Speed 1\tBall Speed 2\tDisc Speed 1\tDisc Speed 2\tRolling Speed (mm/s)\tSliding Speed (mm/s)\tSRR (%)\t\t"
+    "Traction Force (N)\tTraction Coeff (-)"
+)
+FILMS = "\n".join([
+    "EHD261 Test Data File", "Disc track radius:\t40.000", "",
+    'Step 1 "zero" started at 01/01/2020 10:00', "Step type\tFILM_ZERO\tStep description\tzero",
+    "       Ball load = 20.0 N", "",
+    'Step 2 "films" started at 01/01/2020 10:05', "Step type\tFILM\tStep description\tfilms",
+    f"Rolling Speed (mm/s)\tAverage Film (nm)\t\tStep Time (s)\tLube Temp (°C)\tBall Load (N)\t\t{TAIL}\t\t"
+    "Average Film (nm)\tStandard Deviation (nm)\tImage file name",
+    "100.0\t50.0\t\t10\t40.1\t20.1\t\t100.01\t\t99.99\t\t100.00\t-0.02\t-0.020\t\t0.8\t\t\t50.0\t0.5\t",
+    "200.0\t80.0\t\t20\t40.1\t19.9\t\t200.00\t\t200.01\t\t200.00\t0.01\t0.005\t\t0.8\t\t\t80.0\t0.5\t",
+    "", "All steps completed, test completed normally at 01/01/2020 10:20", "",
+])  # fmt: skip
+RUBBED = "\n".join([
+    "MTM311 Test Data File", "",
+    "Step 1 started at 01/01/2020 10:00:00",
+    "Step type\t{kind}\tStep description\trub\tStep duration\t00:00:20",
+    "Zero traction force (N)\t0.1\t(measured at the start of this step)",
+    f"Step Time (s)\tTraction Coeff (-)\t\tStep Time (s)\tPot RTD Temp (degC)\tLube RTD Temp (degC)\tBall Load (N)\t"
+    f"Pin Load (N)\tECR (%)\t\t{TAIL}\tRolling Coeff (-)",
+    "{rows}",
+])  # fmt: skip
+BALL = "10\t0.100\t\t10\t90\t100.1\t30.1\t\t0\t\t50.0\t\t150.0\t\t100.0\t100.0\t100.0\t\t3.0\t0.100\t"
+PIN = "10\t0.100\t\t10\t90\t100.1\t\t12.0\t0\t\t\t\t200.0\t\t\t200.0\t\t\t1.2\t0.100\t"
+
+
+@pytest.mark.parametrize("german", [False, True])
+def test_films_of_an_interferometer_are_read_though_its_steps_are_called_film(
+    german: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = FILMS.replace(".", ",").replace("\t", ";") if german else FILMS
+    Path("ehd.txt").write_bytes(text.encode("latin-1"))
+    assert main(["log", "ehd.txt"]) == 0
+    out = capsys.readouterr().out
+    assert '"films" started at' in out and ", FILM: 2 rows" in out
+    assert "'Traction Coeff (-)': it is empty" in out
+    scene = Scene.from_toml("mtm_zddp")
+    data = read(Path("ehd_data.csv"), scene, "regression")
+    assert sorted(data.value) == approx([50e-9, 80e-9], rel=1e-9)
+    for test, speed in zip(sorted(data.tests, key=lambda test: test.speed_1), (0.1, 0.2), strict=True):
+        assert (test.speed_1, test.speed_2) == approx((speed, speed), rel=1e-9)  # pure rolling, but for the rig's noise
+        assert (test.load, test.temperature) == approx((20.0, 313.25), rel=1e-9)
+
+
+def test_ball_and_disc_speeds_say_which_body_is_the_faster_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("mtm.txt").write_text(RUBBED.format(kind="BOD_TIMED", rows=BALL), "utf-8")
+    assert main(["log", "mtm.txt"]) == 0
+    assert "makes body 2 the faster one, as ball and disc speeds" in capsys.readouterr().out
+    (point,) = Duty.from_csv("mtm_duty.csv", Scene.from_toml("mtm_zddp").operation.point).points
+    assert (point.load, point.speed_1, point.speed_2) == approx((30.1, 0.05, 0.15), rel=1e-9)
+    assert point.temperature == approx(373.25, rel=1e-9)
+    assert main(["log", "mtm.txt", "--faster", "1"]) == 0
+    (point,) = Duty.from_csv("mtm_duty.csv", Scene.from_toml("mtm_zddp").operation.point).points
+    assert (point.speed_1, point.speed_2) == approx((0.15, 0.05), rel=1e-9)
+
+
+def test_a_pin_stands_still_and_has_its_own_column_of_load(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("pin.txt").write_text(RUBBED.format(kind="POD_TIMED", rows=PIN), "utf-8")
+    assert main(["log", "pin.txt"]) == 0
+    assert "Body 1 is the pin" in capsys.readouterr().out
+    header, row = Path("pin_duty.csv").read_text().splitlines()
+    assert dict(zip(header.split(","), row.split(","), strict=True)) == {
+        "time [s]": "0", "load [N]": "12", "speed_1 [m/s]": "0", "speed_2 [m/s]": "0.2", "temperature [degC]": "100.1"
+    }  # fmt: skip
+    Path("pin.txt").write_text(RUBBED.format(kind="TIMED", rows=PIN), "utf-8")
+    assert main(["log", "pin.txt"]) == 2
+    assert "neither a rolling speed nor a slide-to-roll ratio" in capsys.readouterr().err
+    assert main(["log", "pin.txt", "--srr", "200 %", "--faster", "2"]) == 0
+    assert Path("pin_duty.csv").read_text().splitlines()[1].split(",")[2:4] == ["0", "0.2"]
+
+
+def test_images_of_a_mapper_are_named_as_what_they_are(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("map.txt").write_text("SLIM Mapper Analysis File\nX\tY\tR\tG\tB\tFilm\n0\t5\t7\t5\t1\t130.0\n")
+    assert main(["log", "map.txt"]) == 2
+    assert "Film=tribofilm_1 [nm]" in capsys.readouterr().err
