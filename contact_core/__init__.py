@@ -22,14 +22,15 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     kernels/         numba and FFT: arrays in, arrays out
     reference/       closed forms: Hertz and stress below, films of points and lines, starvation, heat, wear
     quantities       names, symbols, units, signs and ranges of every input and output
+    entry_points     what other installed packages offer
     progress         what a long step is doing, for those who wait
     errors           what can go wrong, each message with a way out
     data/            named oils, solids and tribofilms, and the shipped scenes
 
-Imports run one way: errors, progress, quantities, reference <- kernels <- laws <- shapes <- film <- scene <- state,
-calls <- surfaces <- deterministic, regression, correction <- amended <- auto, mapped <- advance. The first two levels
-do not import each other. Everything inside is SI; heights are metres above a body's mean plane, positive toward the
-other body; arrays are [ny, nx], x along entrainment.
+Imports run one way: errors, progress, quantities, reference <- entry_points, kernels <- laws <- shapes <- film <-
+scene <- state, calls <- surfaces <- deterministic, regression, correction <- amended <- auto, mapped <- advance. The
+first two levels do not import each other. Everything inside is SI; heights are metres above a body's mean plane,
+positive toward the other body; arrays are [ny, nx], x along entrainment.
 """
 
 from .advance import advance, uncertainty, warm_up

@@ -15,12 +15,14 @@
     temperatures        records of the heat and the temperatures of a contact
     equations           text of a law's equations, for documentation
     symbols             what the symbols of these equations stand for
+    offered             laws of other installed packages beside these
     elementary          elementary functions of numbers and arrays
 
 Each law is a frozen dataclass with a `name`, its `source`, its `equations`, its parameters and array functions. A
 slot's table in a scene says `model = "<name>"`; for a law without parameters the name alone is enough. A new law is one
-class that follows the Protocol of its slot, and one entry in its module's LAWS. A new tribofilm law is one file in
-`tribofilm`, one entry in its LAWS, and constants in data/tribofilms.toml.
+class that follows the Protocol of its slot, and one entry in its module's LAWS, or an entry point of another package
+(`offered`). A new tribofilm law is one file in `tribofilm`, one entry in its LAWS, and constants in
+data/tribofilms.toml.
 """
 
 from . import (

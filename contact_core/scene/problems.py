@@ -41,8 +41,8 @@ class TableError(SceneError):
             raise self
 
     def __str__(self) -> str:
-        """Return the sentences."""
-        return " ".join([*self.wrong, *self._lacking()])
+        """Return the sentences, each once."""
+        return " ".join([*dict.fromkeys(self.wrong), *self._lacking()])
 
     def _lacking(self) -> list[str]:
         if not self.missing:

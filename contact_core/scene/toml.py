@@ -14,6 +14,7 @@ from ..errors import SceneError
 from ..film import FILMS
 from ..laws import SLOTS
 from ..laws.base import Model
+from ..laws.offered import laws_of
 from ..shapes import GEOMETRIES
 from . import ensemble, units
 from .problems import Missing, TableError
@@ -123,7 +124,7 @@ def did_you_mean(word: str, choices: list[str]) -> str:
 
 def models_of(path: str) -> tuple[type[Model], ...]:
     """Return the records that a table at a dotted path may be, by its `model`; none if there is one kind only."""
-    return _KINDS.get(path) or SLOTS.get(path.rpartition(".")[2], ())
+    return _KINDS.get(path) or laws_of(path.rpartition(".")[2])
 
 
 def override(table: dict[str, Any], key: str, value: str) -> None:
@@ -402,7 +403,7 @@ def unbuild(record: Any) -> dict[str, Any]:
 
 
 def _all_models() -> set[type]:
-    return {model for models in (*SLOTS.values(), *_KINDS.values()) for model in models}
+    return {model for models in (*map(laws_of, SLOTS), *_KINDS.values()) for model in models}
 
 
 def full_key(key: str, value: str) -> str:

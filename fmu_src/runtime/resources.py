@@ -13,16 +13,19 @@ import json
 import uuid
 import zlib
 from dataclasses import replace
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 import pythonfmu
 
 import contact_core
+from contact_core.entry_points import versions
 from contact_core.errors import SceneError
 from contact_core.film.mapped import MAP_SUFFIX, map_file
 from contact_core.mapped.map import map_of
 from contact_core.scene import Scene
+from contact_core.scene.in_use import in_use
 
 from ..flavours import Flavour, Version
 
@@ -70,7 +73,14 @@ def module_name(scene: Scene) -> str:
 
 
 def _fingerprint(scene: Scene) -> str:
-    return hashlib.sha256(json.dumps([_packed(scene).to_dict(), VERSIONS], sort_keys=True).encode()).hexdigest()
+    built_with = versions_of(scene)
+    return hashlib.sha256(json.dumps([_packed(scene).to_dict(), built_with], sort_keys=True).encode()).hexdigest()
+
+
+def versions_of(scene: Scene) -> dict[str, str]:
+    """Return the versions of the packages that the FMU of a scene is built with, those of other packages' laws too."""
+    homes = {type(used.law).__module__.partition(".")[0] for used in in_use(scene)}
+    return VERSIONS | versions(homes - {contact_core.__name__})
 
 
 def _packed(scene: Scene) -> Scene:
@@ -109,10 +119,17 @@ def files(scene: Scene) -> dict[str, bytes]:
         **{heights.file: heights.npy() for heights in given if heights is not None},
         **({str(map_file(scene.film)): chart} if chart is not None else {}),
         "scene.json": (json.dumps(scene.to_dict(), indent=1) + "\n").encode(),
-        "versions.json": (json.dumps(VERSIONS, indent=1) + "\n").encode(),
+        "versions.json": (json.dumps(versions_of(scene), indent=1) + "\n").encode(),
         "slavemodule.txt": module.encode(),
         f"{module}.py": script(MODEL, "fmu_src.runtime.slave.ContactSlave", "The contact of scene.json."),
     }
+
+
+def _installed(package: str) -> str:
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return "none"
 
 
 @functools.lru_cache(maxsize=64)
@@ -122,14 +139,14 @@ def read(folder: str, module: str) -> Scene:
     Raises SceneError if the FMU was built with another version, or edited.
     """
     try:
-        versions = json.loads(Path(folder, "versions.json").read_text("utf-8"))
+        known = json.loads(Path(folder, "versions.json").read_text("utf-8"))
         table = json.loads(Path(folder, "scene.json").read_text("utf-8"))
     except (OSError, ValueError) as error:
         raise SceneError(
             f"The resources of the FMU in {folder} cannot be read ({error}). Build the FMU again."
         ) from None
-    for package, installed in VERSIONS.items():
-        built_with = versions.get(package)
+    for package in {**VERSIONS, **known}:
+        built_with, installed = known.get(package), VERSIONS.get(package) or _installed(package)
         if built_with != installed:
             raise SceneError(
                 f"The FMU was built with {package} {built_with}, but {installed} is installed. "

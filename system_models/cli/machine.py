@@ -84,17 +84,18 @@ def _run_in(folder: Path, assembly: "Assembly", machine: "Machine", arguments: a
 def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:
     """Print and write the result; return the exit code."""
     from ..machines import report as machine_report
-    from ..machines.registry import KINDS
+    from ..machines.registry import kinds
     from ..run import cosim_report
     from ..store import results
     from .simulation import EXIT_CODE
 
+    described = kinds()[kind]
     dataset = results.with_half_widths(dataset)
-    print(assembly.description, "", *KINDS[kind].lines(assembly, dataset), "", sep="\n")
+    print(assembly.description, "", *described.lines(assembly, dataset), "", sep="\n")
     print(*machine_report.lines(assembly, dataset), "", *cosim_report.closing_lines(dataset), "", sep="\n")
     code = 1 if cosim_report.unreliable_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0
     written = results.write(dataset.assign_attrs({EXIT_CODE: code}), folder)
-    print(f"Written: {', '.join(map(str, [*written, *KINDS[kind].pictures(assembly, dataset, folder)]))}", flush=True)
+    print(f"Written: {', '.join(map(str, [*written, *described.pictures(assembly, dataset, folder)]))}", flush=True)
     return code
 
 

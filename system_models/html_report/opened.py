@@ -18,7 +18,7 @@ from ..machines.assembly import Assembly
 from ..machines.kind import Kind
 from ..machines.reading import ATTRIBUTE as MACHINE
 from ..machines.reading import assemble, from_attribute
-from ..machines.registry import KINDS
+from ..machines.registry import kinds
 from ..run.causes import ATTRIBUTE as ERRORS
 from ..run.causes import Causes, at_point
 from ..run.contact import communication_points
@@ -163,7 +163,7 @@ def _with_machine(run: Run) -> Run:
         return run
     try:
         machine = from_attribute(text)
-        return replace(run, machine=Machine(KINDS[machine.kind], assemble(machine)))
+        return replace(run, machine=Machine(kinds()[machine.kind], assemble(machine)))
     except (ContactError, OSError, KeyError) as error:
         note = f"The machine cannot be made again, so its own tables are left out. {error}"
         return replace(run, notes=(*run.notes, note))

@@ -73,7 +73,7 @@ class Assembly:
     reported: Mapping[str, Any] = field(default_factory=dict)  # what only the report reads, by table of the file
 
     def outputs(self) -> list[str]:
-        """Return the recorded variables: all outputs of parts, those of contacts in `RECORDED`, connected inputs."""
+        """Return the recorded variables: all outputs of parts, those of contacts in `RECORDED`, changing inputs."""
         found = [f"{name}.{q.name}" for name, part in self.parts.items() for q in part.responses]
         found += [f"{name}.valid" for name in self.parts]
         for name, contact in self.contacts.items():
@@ -125,6 +125,6 @@ class Assembly:
                     )
 
     def inputs_of(self, contact: str) -> list[str]:
-        """Return the connected inputs of a contact."""
-        targets = (target.partition(".") for _, target, *_ in self.connections)
-        return [variable for owner, _, variable in targets if owner == contact]
+        """Return the inputs of a contact that are connected, then those that the schedule sets."""
+        targets = [*(target for _, target, *_ in self.connections), *self.schedule]
+        return [variable for owner, _, variable in (t.partition(".") for t in targets) if owner == contact]

@@ -27,7 +27,7 @@ class Design:
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of machine. `registry.KINDS` lists them."""
+    """A kind of machine. `registry.kinds` lists them."""
 
     name: str  # value of `kind` in a machine's file
     tables: tuple[str, ...]  # of the file, beside contact, duty and simulate

@@ -1,6 +1,6 @@
 """Machines from TOML: the kind, its contacts and components, its duty, and how it is simulated.
 
-    kind = "ball_bearing"        # one of `registry.KINDS`
+    kind = "ball_bearing"        # one of `registry.kinds`
     description = "..."
 
     [contact]                    # a scene, and changes of it
@@ -30,7 +30,7 @@ from . import timeline
 from .assembly import Assembly, Contact
 from .files import shipped, shipped_files
 from .kind import Kind
-from .registry import KINDS
+from .registry import kinds
 
 _VALUES = ("description", "deterministic")  # keys that are no tables
 
@@ -66,8 +66,9 @@ def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
     if changes:
         table["description"] = f"{table['description']} (changed)"
     kind = table.pop("kind", None)
-    if kind not in KINDS:
-        raise SceneError(f"kind = {kind!r} is not one of {', '.join(KINDS)}.{did_you_mean(str(kind), list(KINDS))}")
+    known = list(kinds())
+    if kind not in known:
+        raise SceneError(f"kind = {kind!r} is not one of {', '.join(known)}.{did_you_mean(str(kind), known)}")
     return Machine(path.stem, kind, table, file.parent)
 
 
@@ -98,7 +99,7 @@ def _put(table: dict[str, Any], key: str, item: Any) -> None:
 
 def assemble(machine: Machine) -> Assembly:
     """Return the co-simulation of a machine. Raises SceneError for what is missing, unknown or out of range."""
-    kind, table = KINDS[machine.kind], machine.table
+    kind, table = kinds()[machine.kind], machine.table
     _check_keys(machine, kind)
     duty = timeline.read(table.get("duty", {}), kind.signals, machine.folder, kind.needed)
     design = kind.design(table, duty)

@@ -77,7 +77,7 @@ def resolve(assembly: Assembly, dataset: xr.Dataset, progress: Callable[[str], N
     It ends with `count` states that can be judged, or after twice as many tries. `progress` is called with each.
     """
     found: list[Resolved] = []
-    usable = {name: _usable(dataset, name, assembly.contacts[name].count) for name in _spread(assembly, dataset, count)}
+    usable = {name: _usable(dataset, name, assembly.contacts[name]) for name in _spread(assembly, dataset, count)}
     for rows in _windows(dataset["time"].values, count):
         tried = Counter(state.contact for state in found)
         for contact, row in _candidates(rows, usable, tried):
@@ -144,18 +144,22 @@ def _spread(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[str]:
     return [name for shift in range(stride) for name in names[(shift + stride // 2) % stride :: stride]]
 
 
-def _usable(dataset: xr.Dataset, name: str, count: str) -> NDArray[np.bool_]:
+def _usable(dataset: xr.Dataset, name: str, contact: Contact) -> NDArray[np.bool_]:
     """Return the rows in which a contact works.
 
     It is above a tenth of its mean load and speed, now and before, and stands for some contact of the machine.
     """
-    load, speed = (dataset[f"{name}.{key}"].values for key in ("load", "speed_1"))
-    speed = np.abs(speed + dataset[f"{name}.speed_2"].values)
+    start = started(contact)[1]  # has what is neither connected nor scheduled
+    load, first, second = (
+        dataset.get(f"{name}.{key}", xr.full_like(dataset["time"], getattr(start, key))).values
+        for key in ("load", "speed_1", "speed_2")
+    )
+    speed = np.abs(first + second)
     steps = np.diff(dataset["time"].values, prepend=0.0)
     means = [float(values @ steps) / float(steps.sum()) for values in (load, speed)]
     working = (load > _IDLE * means[0]) & (speed > _IDLE * means[1]) & dataset[f"{name}.valid"].values.astype(bool)
-    if count:
-        working &= dataset[count].values > _IDLE
+    if contact.count:
+        working &= dataset[contact.count].values > _IDLE
     return np.asarray(working & np.roll(working, 1))
 
 

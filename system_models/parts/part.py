@@ -10,6 +10,8 @@ from typing import ClassVar
 
 from contact_core.quantities import Quantity, Role, parameter
 
+MACHINES = "tribofmu.machines"  # group of entry points: machines of other packages
+
 Values = Mapping[str, float]  # by name, SI
 State = tuple[float, ...]  # all that the next answer depends on beside parameters and inputs
 

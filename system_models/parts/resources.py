@@ -8,15 +8,16 @@ from pathlib import Path
 from typing import Any
 
 import contact_core
+from contact_core.entry_points import homes
 from contact_core.errors import SceneError
 from contact_core.quantities import out_of_range, value_out_of_range
 from contact_core.scene.toml import build, did_you_mean, unbuild
 from fmu_src.flavours import Flavour, Version
 from fmu_src.runtime.resources import identity, script
 
-from .part import Part
+from .part import MACHINES, Part
 
-_HOME = "system_models."  # package of the components that resources may name
+_HOME = "system_models"  # package of the components that resources may name, beside those that offer machines
 
 
 def files(part: Part) -> dict[str, bytes]:
@@ -62,8 +63,11 @@ def read(folder: str, module: str) -> Part:
         raise SceneError(
             f"The FMU was built with tribofmu {version}, but {contact_core.__version__} is installed. Build it again."
         )
-    if not str(home).startswith(_HOME):
-        raise SceneError(f"The FMU's component lies in '{home}', not in this package. Build it again.")
+    if str(home).partition(".")[0] not in {_HOME, *homes(MACHINES)}:
+        raise SceneError(
+            f"The FMU's component lies in '{home}', which is neither in this package nor in an installed one that "
+            f"offers {MACHINES}. Install that package here, or build the FMU again."
+        )
     part: Part = build(getattr(importlib.import_module(home), name), values, "")
     if _module(part) != module:
         raise SceneError(f"The component of the FMU in {folder} was changed after building. Build it again.")

@@ -27,6 +27,7 @@ _WIDE, _WAVES = 5.0, 8.0  # half widths of the contact and correlation lengths, 
 _MISSING, _LEFT = 0.05, 0.02  # of the film: missing from which on a line says so, and left by its way out
 _ROUND = 0.01  # relative difference of half widths, up to which one is told
 _POOR, _UNKNOWN = 0.35, 1.0  # relative half widths from which on a quantity is known roughly, and hardly at all
+_LEAST = 1e-3  # half width of a share that is told
 _SHORT, _LONG = 60, 120  # columns of text
 
 _LEGEND = {  # heading of the table: its meaning
@@ -224,7 +225,7 @@ def _half(last: xr.Dataset, name: str, absolute: bool) -> float | None:
 def _known(word: str, half: float, absolute: bool) -> str:
     """Return how well an output is known."""
     if absolute:
-        return f"{word} to +- {half:.2g}"
+        return f"{word} to +- {half:.2g}" if half == 0.0 or half >= _LEAST else f"{word} to less than +- {_LEAST:g}"
     if not math.isfinite(half):
         return f"{word} not at all"
     percent = f"{100.0 * half:.2g} %" if half < _UNKNOWN else f"a factor of {1.0 + half:.2g}"

@@ -121,6 +121,11 @@ def test_an_error_above_the_value_is_a_factor() -> None:
     assert "friction only to a factor of 14" in told
 
 
+def test_a_share_of_solids_is_not_told_to_digits_that_mean_nothing() -> None:
+    told = " ".join(trust.after(MTM, run_of(error_load_ratio=1.4e-91), {}))
+    assert "W_c to less than +- 0.001" in told
+
+
 def test_invalid_rows_are_told() -> None:
     found = run_of()
     found["valid"][1] = False

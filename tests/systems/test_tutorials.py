@@ -4,13 +4,17 @@ import os
 import re
 import shlex
 import sys
+import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 import xarray as xr
 
+from contact_core.laws import offered
 from system_models.cli.main import main
+from system_models.machines import registry
 
 FOLDER = Path(__file__).parents[2] / "docs" / "tutorials"
 _BLOCK = re.compile(r"(?:^`([^`\n]+)`, new:\n\n)?^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
@@ -27,6 +31,9 @@ def followed(page: str) -> dict[str, Any]:
         elif language == "sh":
             for line in text.splitlines():
                 program, *arguments = shlex.split(line)
+                if line == "pip install -e .":
+                    install()
+                    continue
                 assert program == "tribofmu"
                 assert main(arguments) == 0, line
     for value in names.values():
@@ -35,10 +42,36 @@ def followed(page: str) -> dict[str, Any]:
     return names
 
 
+def install() -> None:
+    """Leave in the working folder, which is on the path, what pip does beside an editable package; no network."""
+    project = tomllib.loads(Path("pyproject.toml").read_text("utf-8"))["project"]
+    info = Path(f"{project['name'].replace('-', '_')}-{project['version']}.dist-info")
+    info.mkdir()
+    heading = f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {project['version']}\n"
+    (info / "METADATA").write_text(heading, "utf-8")
+    groups = project["entry-points"].items()
+    text = "".join(f"[{group}]\n" + "".join(f"{n} = {v}\n" for n, v in entries.items()) for group, entries in groups)
+    (info / "entry_points.txt").write_text(text, "utf-8")
+    forget()
+
+
+def forget() -> None:
+    """Let laws and machines of other packages be looked for anew."""
+    offered.of_others.cache_clear()
+    registry.kinds.cache_clear()
+
+
 @pytest.fixture(autouse=True)
-def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
+    modules = set(sys.modules)
+    yield
+    monkeypatch.undo()
+    forget()
+    for name in {"my_oil", "flywheel_brake"} - modules:
+        sys.modules.pop(name, None)
 
 
 def test_zddp_running_in() -> None:
@@ -68,3 +101,22 @@ def test_own_oil() -> None:
     names = followed("own_oil")
     assert float(names["friction"].max() / names["friction"].min()) > 1.1
     assert float(names["film"].max() / names["film"].min()) < 1.02
+
+
+def test_writing_a_law(capsys: pytest.CaptureFixture[str]) -> None:
+    names = followed("writing_a_law")
+    assert "McEwen, J. Inst. Petroleum" in capsys.readouterr().out  # of `explain`
+    assert names["worst"] < 0.02
+    assert abs(names["film"] - 1.0) < 0.02
+    assert 0.7 < names["friction"] < 0.8
+    assert names["result"]["valid"].all()
+    barus = float(names["barus"].friction_coefficient)
+    assert abs(names["result"]["friction_coefficient"][-1] / barus - 1.0) < 0.02
+
+
+def test_writing_a_machine() -> None:
+    names = followed("writing_a_machine")
+    assert 0.45 < names["stops"]["twice"] / names["stops"]["stop"] < 0.6
+    assert abs(names["work"] / names["energy"] - 1.0) < 0.03
+    assert names["slow"] > 2.0 * names["fast"]
+    assert Path("results/stop/overview.png").is_file()
