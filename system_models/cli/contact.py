@@ -133,9 +133,9 @@ def _simulate(
     scene: Scene, duty: "Duty", checkpoint: "Checkpoint", fields: "Fields | None"
 ) -> "tuple[xr.Dataset, Mapping[str, Error]]":
     """Build the FMU and drive it, with a progress bar in minutes of test time; return the errors at the end, too."""
-    from contact_core import ContactState, uncertainty
     from fmu_src.package.build import build
 
+    from ..run import causes
     from ..run.contact import run
 
     duration, since = scene.operation.duration, checkpoint.saved.time if checkpoint.saved else 0.0
@@ -144,5 +144,5 @@ def _simulate(
         fmu = build(scene, Path(folder) / f"{scene.name}.fmu", "embedded")
         last: list[bytes] = []
         dataset = run(fmu, duty, duration, scene.operation.interval, progress, checkpoint, fields, last.append)
-    known = last and last[0]  # no state: nothing has been solved
-    return dataset, uncertainty(scene, ContactState.from_bytes(last[0], scene)) if known else {}
+    # a run that continues from its end takes no step, and looks at no state
+    return dataset, causes.of_state(scene, last[0]) if last else causes.at_point(scene, checkpoint)

@@ -20,7 +20,7 @@ from ..machines.reading import ATTRIBUTE as MACHINE
 from ..machines.reading import assemble, from_attribute
 from ..machines.registry import KINDS
 from ..run.causes import ATTRIBUTE as ERRORS
-from ..run.causes import Causes, at_point
+from ..run.causes import Causes, at_point, by_cause
 from ..run.contact import communication_points
 from ..run.duty import Duty
 from ..run.fields import Fields
@@ -167,7 +167,7 @@ def _unfinished(folder: Path) -> Run:
     dataset = _rows(checkpoint, _CONTACT).assign_attrs(attributes)
     if run.scene is None:
         return replace(run, dataset=dataset, planned=float(dataset.variables["time"].values[-1]))
-    planned, found = run.scene.operation.duration, at_point(run.scene, checkpoint)
+    planned, found = run.scene.operation.duration, by_cause(at_point(run.scene, checkpoint))
     run = replace(run, dataset=dataset, planned=planned, causes=found)
     return _with_maps(run, checkpoint, about) if checkpoint.kept else run
 

@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..run.half_widths import digits_of
+
 _ZERO = 273.15  # K
 _DEGREES = "°C"
 _PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"), (1e9, "G"))
@@ -83,8 +85,7 @@ def stated(value: float, half: float | None = None) -> str:
         return f"{value:.4g}"
     if not math.isfinite(half):
         return f"{value:.3g} ± ?"
-    first = -math.floor(math.log10(half)) + (1 if half < 2.0 * 10.0 ** math.floor(math.log10(half)) else 0)
-    if first > _MOST_DIGITS:
+    if digits_of(half) > _MOST_DIGITS:
         return f"{value:.2g} ± {half:.1g}"
-    digits = max(first, 0)
+    digits = max(digits_of(half), 0)
     return f"{value:.{digits}f} ± {half:.{digits}f}"

@@ -1,5 +1,6 @@
 """Range flags in numbers: which quantity is beyond which limit, at the worst of the rows that raise the flag."""
 
+import math
 from collections.abc import Callable
 from dataclasses import fields
 
@@ -23,6 +24,10 @@ _IN_WORDS = {  # of the places of the fitted curves
     "slip": "slide-to-roll ratio",
     "pressed": "Hertz pressure / hardness",
 }
+_SMOOTH = {  # places without end: nothing resists the pressure
+    "flattening": "the bodies have no roughness",
+    "below": "no body has microroughness (surface_1.microroughness)",
+}
 _NO_MOST, _NO_LEAST = ("layers",), ("slip", "pressed")  # as in `FittedSharing.covers`
 Told = Callable[[Scene, xr.Dataset], str]
 
@@ -34,11 +39,16 @@ def sentences(scene: Scene, dataset: xr.Dataset) -> list[str]:
     for flag in RangeFlag:
         raised = (flags & flag) > 0
         if raised.any():
-            told = _TOLD.get(flag)
-            number = told(scene, dataset.isel(time=raised)) if told else ""
+            number = by_how_much(flag, scene, dataset.isel(time=raised))
             rows = "all rows" if raised.all() else f"{int(raised.sum())} of {total} rows"
             found.append(f"Range, {rows}: {flag.text}" + (f" ({number})." if number else "."))
     return found
+
+
+def by_how_much(flag: RangeFlag, scene: Scene, rows: xr.Dataset) -> str:
+    """Return which quantity is beyond which limit in rows that raise a flag; empty of a flag that says it itself."""
+    told = _TOLD.get(flag)
+    return told(scene, rows) if told else ""
 
 
 def operating_point(row: xr.Dataset) -> OperatingPoint:
@@ -95,6 +105,8 @@ def _outside(scene: Scene, rows: xr.Dataset) -> str:
         if case.op.slides and 0.0 in case.speeds:
             return "a body stands still; they are of two that move"
         for name, here in _fit(case)._asdict().items():
+            if name in _SMOOTH and math.isinf(here):
+                return f"{_SMOOTH[name]}: fitted to bodies that have it"
             low, high = regression_film(scene).sharing.FITTED[name]
             if here > high and name not in _NO_MOST:
                 return f"{_IN_WORDS[name]} {here:.3g}: fitted to {high:.3g} at most"

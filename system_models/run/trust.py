@@ -13,7 +13,7 @@ from contact_core.quantities import UNSOLVED
 from contact_core.scene import Case, OperatingPoint, Scene
 from contact_core.state import Error
 
-from . import flags
+from . import flags, verdict
 from .duty import Duty
 
 _MOST_POINTS = 200  # of a duty that are looked at
@@ -21,7 +21,6 @@ _MIXED, _FULL = 1.0, 3.0  # lambda of handbooks, from which on lubrication is ca
 _FEW = 8.0  # nodes across the contact, below which RangeFlag.FEW_NODES is raised
 _WIDE, _WAVES = 5.0, 8.0  # half widths of the contact and correlation lengths, that a domain should have
 _ROUND = 0.01  # relative difference of half widths, up to which one is told
-_POOR, _UNKNOWN = 0.35, 1.0  # relative half widths from which on a quantity is known roughly, and hardly at all
 _SHORT, _LONG = 60, 120  # columns of text
 
 _LEGEND = {  # heading of the table: its meaning
@@ -29,22 +28,6 @@ _LEGEND = {  # heading of the table: its meaning
     "lambda": "h_c / present roughness, not that of handbooks",
     "tribofilm, wear": "means over the track of body 1, 2",
     "A_c, W_c": "the solids' share of Hertz's area, of the load",
-}
-_NAMES = {  # of an output with a stated error: in words
-    "friction_coefficient": "friction",
-    "h_c": "film",
-    "contact_load_ratio": "W_c",
-    "tribofilm": "tribofilm",
-    "wear_depth": "wear",
-    "damage": "damage",
-}
-_ABSOLUTE = {"contact_load_ratio"}
-_CAUSES = {
-    "time": "the time steps",
-    "sampling": "the few instants solved",
-    "grid": "the grid",
-    "iteration": "solutions that stop early",
-    "curves": "the fitted curves",
 }
 
 
@@ -143,70 +126,7 @@ def after(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> lis
 
     `errors` are those of the last state by `contact_core.uncertainty`; empty if that is not known.
     """
-    return wrapped(*flags.sentences(scene, dataset), _verdict(scene, dataset, errors))
-
-
-def _verdict(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> str:
-    """Return what is known how well at the end, and what would make it surer."""
-    valid, total = dataset["valid"].values, dataset.sizes["time"]
-    if not valid.all():
-        first = float(dataset["time"].values[~valid][0])
-        return (
-            f"Verdict: {int((~valid).sum())} of {total} rows are INVALID, the first at {first:g} s; their outputs "
-            "stand as they were before."
-        )
-    known: dict[str, list[str]] = {}
-    for word, half, error, absolute in _stated(dataset, errors):
-        known.setdefault(_cause(error), []).append(_known(word, half, absolute))
-    if not known:
-        return f"Verdict: all {total} rows were computed; no errors are stated."
-    parts = [f"{', '.join(words)}{cause and f' ({cause})'}" for cause, words in known.items()]
-    return f"Verdict: known at the end: {'; '.join(parts)}. {_way_out(scene)}".rstrip()
-
-
-def _stated(dataset: xr.Dataset, errors: Mapping[str, Error]) -> list[tuple[str, float, Error | None, bool]]:
-    """Return words, half width, its causes and True if absolute; of the body whose is larger."""
-    last, found = dataset.isel(time=-1), []
-    for name, word in _NAMES.items():
-        outputs = [each for each in (name, f"{name}_1", f"{name}_2") if f"{each}_error" in last.coords]
-        halves = {each: half for each in outputs if (half := _half(last, each, name in _ABSOLUTE)) is not None}
-        if halves:
-            worst = max(halves, key=halves.__getitem__)
-            found.append((word, halves[worst], errors.get(worst), name in _ABSOLUTE))
-    return found
-
-
-def _half(last: xr.Dataset, name: str, absolute: bool) -> float | None:
-    """Return the half width of an output's error, relative or absolute; None of an output that is zero."""
-    half, value = float(last[f"{name}_error"]), abs(float(last[name]))
-    if absolute:
-        return half
-    return half / value if value > 0.0 else None
-
-
-def _known(word: str, half: float, absolute: bool) -> str:
-    """Return how well an output is known."""
-    if absolute:
-        return f"{word} to +- {half:.2g}"
-    if not math.isfinite(half):
-        return f"{word} not at all"
-    percent = f"{100.0 * half:.2g} %" if half < _UNKNOWN else f"a factor of {1.0 + half:.2g}"
-    return f"{word} {'only ' if half > _POOR else ''}to {percent}"
-
-
-def _cause(error: Error | None) -> str:
-    """Return the cause of most of an error in words; empty if it is not known."""
-    if error is None or error.together == 0.0:
-        return ""
-    name, half = max(error._asdict().items(), key=lambda item: item[1])
-    others = math.sqrt(max(error.together**2 - half**2, 0.0))
-    return _CAUSES[name] if half > 2.0 * others else f"mostly {_CAUSES[name]}"
-
-
-def _way_out(scene: Scene) -> str:
-    if scene.film.name in UNSOLVED:
-        return "Surer: --set film.model=auto or deterministic."
-    return "" if scene.control.accuracy else "Surer: --accuracy 5%."
+    return wrapped(*flags.sentences(scene, dataset), verdict.sentence(scene, dataset, errors))
 
 
 def width() -> int:
