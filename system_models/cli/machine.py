@@ -60,11 +60,14 @@ def _export(assembly: "Assembly", path: str, flavour: "Flavour") -> int:
 def _run_in(folder: Path, assembly: "Assembly", machine: "Machine", arguments: argparse.Namespace) -> int:
     import tempfile
 
+    from ..machines import trust as machine_trust
     from ..machines.reading import described
+    from ..run import trust
     from .simulation import carry_out
 
     unchecked: bool = arguments.unchecked
     flavour: Flavour = arguments.flavour or "embedded"
+    print(*trust.wrapped(assembly.description), *machine_trust.before(machine, assembly), "", sep="\n", flush=True)
     settings = {**assembly.settings, "outputs": assembly.outputs()}
     checks = "left out" if unchecked else "error_coupling, resolved.nc"
     attributes = {"title": assembly.description, "machine": assembly.name, "checks": checks}
@@ -84,13 +87,14 @@ def _run_in(folder: Path, assembly: "Assembly", machine: "Machine", arguments: a
 def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:
     """Print and write the result; return the exit code."""
     from ..machines import report as machine_report
+    from ..machines import trust
     from ..machines.registry import KINDS
     from ..run import cosim_report
     from ..store import results
     from .simulation import EXIT_CODE
 
     dataset = results.with_half_widths(dataset)
-    print(assembly.description, "", *KINDS[kind].lines(assembly, dataset), "", sep="\n")
+    print(*KINDS[kind].lines(assembly, dataset), "", *trust.after(KINDS[kind], assembly, dataset), "", sep="\n")
     print(*machine_report.lines(assembly, dataset), "", *cosim_report.closing_lines(dataset), "", sep="\n")
     code = 1 if cosim_report.unreliable_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0
     written = results.write(dataset.assign_attrs({EXIT_CODE: code}), folder)

@@ -74,7 +74,7 @@ def _temperature(scene: Scene, rows: xr.Dataset) -> str:
 
 def _inlet(scene: Scene, rows: xr.Dataset) -> str:
     nodes = [_inlet_nodes(Case.at(scene, operating_point(row))) for row in _some(rows)]
-    return f"{min(nodes):.1f} nodes across the inlet"
+    return f"{min(nodes):.1f} nodes across the inlet" if nodes else ""
 
 
 def _inlet_nodes(case: Case) -> float:
@@ -82,7 +82,9 @@ def _inlet_nodes(case: Case) -> float:
 
 
 def _few(scene: Scene, rows: xr.Dataset) -> str:
-    least = min(_some(rows), key=lambda row: float(row["load"]))
+    least = min(_some(rows), key=_load, default=None)
+    if least is None:
+        return ""
     wide = 2.0 * Case.at(scene, operating_point(least)).hertz.a
     return f"{wide / scene.film.spacing:.1f} nodes at {float(least['load']):.3g} N"
 
@@ -100,7 +102,7 @@ def _sliding(scene: Scene, rows: xr.Dataset) -> str:
 
 def _outside(scene: Scene, rows: xr.Dataset) -> str:
     """Return which numbers of the fitted curves are beyond their ranges, of surfaces as new."""
-    for row in _some(rows):
+    for row in sorted(_some(rows), key=_load, reverse=True):
         case = Case.at(scene, operating_point(row))
         if case.op.slides and 0.0 in case.speeds:
             return "a body stands still; they are of two that move"
@@ -137,13 +139,17 @@ def _pitted(scene: Scene, rows: xr.Dataset) -> str:
 
 
 def _some(rows: xr.Dataset) -> list[xr.Dataset]:
-    """Return rows under load that stand for all: of least and most load, slowest and fastest, last."""
+    """Return rows under load and in motion that stand for all: of least and most load, slowest and fastest, last."""
     loads, speed = rows["load"].values, np.abs(rows["speed_1"].values + rows["speed_2"].values)
-    loaded = np.flatnonzero(loads > 0.0)
+    loaded = np.flatnonzero((loads > 0.0) & (speed > 0.0))
     if not loaded.size:
         return []
     chosen = {int(loaded[f(values[loaded])]) for f in (np.argmin, np.argmax) for values in (loads, speed)}
     return [rows.isel(time=k) for k in sorted({*chosen, int(loaded[-1])})]
+
+
+def _load(row: xr.Dataset) -> float:
+    return float(row["load"])
 
 
 _TOLD: dict[RangeFlag, Told] = {

@@ -36,9 +36,12 @@ def before(scene: Scene, duty: Duty) -> list[str]:
     cases = [Case.bind(scene, op) for op in _some(duty.points) if op.load > 0.0]
     if not cases:
         return ["Contact: no load, the bodies just touch."]
-    return [
-        line for text in (_contact(cases), _motion(cases), _film(cases), *_grid(scene, cases)) for line in wrapped(text)
-    ]
+    return wrapped(*described(cases), *_grid(scene, cases))
+
+
+def described(cases: Sequence[Case]) -> list[str]:
+    """Return sentences on contacts under load: pressure and size, motion, film of smooth bodies and regime."""
+    return [_contact(cases), _motion(cases), _film(cases)]
 
 
 def _some(points: Sequence[OperatingPoint]) -> list[OperatingPoint]:
@@ -59,18 +62,18 @@ def _speed(op: OperatingPoint) -> float:
 
 def _contact(cases: Sequence[Case]) -> str:
     shapes = [case.hertz for case in cases]
-    size = f"half width {_span((1e6 * h.a for h in shapes), 'um')}"
+    size = f"half width {span((1e6 * h.a for h in shapes), 'um')}"
     if not cases[0].shape.periodic and any(abs(h.b / h.a - 1.0) > _ROUND for h in shapes):
-        along, across = (_span(1e6 * getattr(h, axis) for h in shapes) for axis in "ab")
+        along, across = (span(1e6 * getattr(h, axis) for h in shapes) for axis in "ab")
         size = f"half widths {along} um along, {across} um across"
-    largest, mean = (_span(1e-9 * getattr(h, name) for h in shapes) for name in ("pressure_max", "pressure_mean"))
+    largest, mean = (span(1e-9 * getattr(h, name) for h in shapes) for name in ("pressure_max", "pressure_mean"))
     return f"Contact: Hertz pressure {largest} GPa (mean {mean} GPa), {size}."
 
 
 def _motion(cases: Sequence[Case]) -> str:
     ratios = [100.0 * case.op.sliding_speed / case.op.entrainment_speed for case in cases if case.entrained]
-    slides = f"slide-to-roll ratio {_span(ratios, '%')}" if ratios else "which brings no oil in"
-    return f"Motion: entrainment speed {_span((case.op.entrainment_speed for case in cases), 'm/s')}, {slides}."
+    slides = f"slide-to-roll ratio {span(ratios, '%')}" if ratios else "which brings no oil in"
+    return f"Motion: entrainment speed {span((case.op.entrainment_speed for case in cases), 'm/s')}, {slides}."
 
 
 def _film(cases: Sequence[Case]) -> str:
@@ -78,17 +81,17 @@ def _film(cases: Sequence[Case]) -> str:
     rough = math.hypot(*(side.surface.rms for side in cases[0].sides))
     if not any(films):
         return "Film: none by formula, as nothing brings oil in: dry contact."
-    text = f"Film: {_span((1e9 * film for film in films), 'nm')} by formula for smooth bodies"
+    text = f"Film: {span((1e9 * film for film in films), 'nm')} by formula for smooth bodies"
     if rough == 0.0:
         return f"{text}, as these are: full film."
     ratios = [film / rough for film in films]
     return (
-        f"{text}; roughness {1e9 * rough:.3g} nm; so lambda of handbooks is {_span(ratios)}: by its limits "
-        f"{_regime(min(ratios), max(ratios))}."
+        f"{text}; roughness {1e9 * rough:.3g} nm; so lambda of handbooks is {span(ratios)}: by its limits "
+        f"{regime(min(ratios), max(ratios))}."
     )
 
 
-def _regime(least: float, most: float) -> str:
+def regime(least: float, most: float) -> str:
     """Return the lubrication regime in a word, or from one to another."""
     first, last = (_word(ratio) for ratio in (least, most))
     return first if first == last else f"{first} to {last}"
@@ -140,7 +143,7 @@ def wrapped(*texts: str) -> list[str]:
     return [line for text in texts for line in textwrap.wrap(text, width(), **how)]
 
 
-def _span(values: Iterable[float], unit: str = "") -> str:
+def span(values: Iterable[float], unit: str = "") -> str:
     """Return a value, or the range of several, as text with a unit."""
     found = np.array(list(values), dtype=float)
     ends = list(dict.fromkeys(f"{end:.3g}" for end in (found.min(), found.max())))

@@ -69,8 +69,8 @@ def _spread(last: xr.Dataset, dataset: xr.Dataset) -> str:
     for heading, unit, name, factor, digits in shown(dataset):
         values = factor * last[name].values[np.isfinite(last[name].values)]
         cells = [f"{value:.{digits}f}" for value in np.quantile(values, (0.0, 0.025, 0.5, 0.975, 1.0))]
-        for column, cell in zip(columns, [f"{heading} [{unit}]" if unit else heading, *cells], strict=True):
-            column.append(cell)
+        for column, text in zip(columns, [f"{heading} [{unit}]" if unit else heading, *cells], strict=True):
+            column.append(text)
     return _aligned(columns)
 
 
@@ -78,9 +78,7 @@ def _aligned(columns: list[list[str]]) -> str:
     return "\n".join(aligned([list(row) for row in zip(*columns, strict=True)], 0))
 
 
-def lines(
-    plan: Plan, dataset: xr.Dataset, found: list[Indices], scene_of: Callable[[Point], Scene]
-) -> list[str]:
+def lines(plan: Plan, dataset: xr.Dataset, found: list[Indices], scene_of: Callable[[Point], Scene]) -> list[str]:
     """Return sentences on which key matters, on flags, and on points that are refused, invalid or not known.
 
     `scene_of` returns the scene of a point.
@@ -91,8 +89,8 @@ def lines(
         columns = [["output"], ["key"], ["alone"], ["with others"]]
         for each in found:
             texts = [f"{low:.2f} to {high:.2f}" for _, low, high in (each.first, each.total)]
-            for column, cell in zip(columns, [each.output, each.key, *texts], strict=True):
-                column.append(cell)
+            for column, text in zip(columns, [each.output, each.key, *texts], strict=True):
+                column.append(text)
         said.append(_aligned(columns))
     if patches_of(plan):
         said += _means(plan, dataset)
