@@ -39,6 +39,11 @@ def add_scene(command: argparse.ArgumentParser, kinds: str) -> None:
 
 def contact(arguments: argparse.Namespace) -> "tuple[Scene, Duty]":
     """Return the scene, large enough for its duty, and the duty."""
+    return contact_and_assumed(arguments)[:2]
+
+
+def contact_and_assumed(arguments: argparse.Namespace) -> "tuple[Scene, Duty, tuple[Assumed, ...]]":
+    """Return the same, and the values that the scene does not give; say these on stderr."""
     from ..run.duty import Duty
 
     refuse_machine(arguments.scene)
@@ -50,7 +55,7 @@ def contact(arguments: argparse.Namespace) -> "tuple[Scene, Duty]":
         scene, assumed = Scene.read(arguments.scene, overrides | {"operation.largest_load": f"{largest!r} N"})
     _ask_back(scene, arguments.force)
     tell_assumed(assumed)
-    return duty.sized(scene), duty
+    return duty.sized(scene), duty, assumed
 
 
 def tell_assumed(assumed: Sequence[Assumed]) -> None:

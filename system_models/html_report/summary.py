@@ -4,11 +4,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..run.half_widths import says_nothing
+from ..store.results import ERROR
+from .errors import CAUSES
 from .markup import Raw, paragraph, section, table, text
 from .opened import Run
 from .panels import MAIN, Panel, band, unit_of, values
 from .shown import Unit, stated, time_unit
-from .trust import CAUSES, invalid, marked, raised, why_invalid
+from .trust import invalid, marked, raised, why_invalid
 
 _LARGE = 0.2  # relative half width from which an end value is called uncertain
 _MOST = 12  # contacts listed
@@ -134,12 +137,25 @@ def _of_errors(run: Run) -> Iterator[tuple[str, str]]:
                 relative = half / abs(value) if half is not None and value and np.isfinite(value) else 0.0
                 if relative > max(worst, _LARGE):
                     where = "" if run.of_contact else f" in contact {contact}"
-                    worst, main = relative, f"{where}{_main_cause(run, name)}"
+                    worst, main = relative, f"{where}{_main_cause(run, contact, name)}"
         if worst and not panel.share:
             yield "warn", f"{panel.title} is uncertain by {worst:.0%}{main}: do not read more into its digits."
+        unknown = [name for name in run.contacts if _is_unknown(run, panel, name)]
+        if unknown:
+            where = "" if run.of_contact else f" in {len(unknown)} of {len(run.contacts)} contacts"
+            yield "bad", f"{panel.title} is not known{where}: its error leaves all open."
 
 
-def _main_cause(run: Run, name: str) -> str:
+def _is_unknown(run: Run, panel: Panel, contact: str) -> bool:
+    """Return True if the half width of a panel's first quantity says nothing at the end."""
+    name, half = panel.quantities[0], f"{run.of(contact, panel.quantities[0])}{ERROR}"
+    if half not in run.dataset.variables or not panel.share:
+        return False
+    value, width = (float(run.dataset.variables[key].values[-1]) for key in (run.of(contact, name), half))
+    return says_nothing(name, value, width)
+
+
+def _main_cause(run: Run, contact: str, name: str) -> str:
     """Return the largest cause of an output's error in words."""
-    parts = run.causes.get(name)
+    parts = run.causes.get(contact, {}).get(name)
     return f", mostly by {CAUSES[max(parts, key=lambda cause: parts[cause])]}" if parts else ""

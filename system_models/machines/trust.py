@@ -3,10 +3,12 @@
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
+from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from contact_core.scene import Case, OperatingPoint
 from contact_core.state import RangeFlag
@@ -96,28 +98,39 @@ def _temperature(assembly: Assembly, name: str) -> float:
 
 
 def after(kind: Kind, assembly: Assembly, dataset: xr.Dataset) -> list[str]:
+    """Return lines on a run: what `told` says."""
+    return wrapped(*told(kind, assembly, dataset))
+
+
+def told(kind: Kind, assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     """Return what the columns of the tables are, the flags raised with their quantities, and a verdict."""
     columns = "; ".join(f"{heading}: {meaning}" for heading, meaning in kind.legend.items())
-    return wrapped(f"Columns: {columns}.", *sentences(assembly, dataset), *_verdict(assembly, dataset))
+    contacts = {name: of_contact(assembly, dataset, name) for name in assembly.contacts}
+    return [f"Columns: {columns}.", *sentences(assembly, contacts), *_verdict(assembly, contacts)]
 
 
-def sentences(assembly: Assembly, dataset: xr.Dataset) -> Iterator[str]:
+def sentences(assembly: Assembly, contacts: Mapping[str, xr.Dataset]) -> Iterator[str]:
     """Yield a sentence for each flag that some contact raises, with the contacts, the quantity and by how much."""
-    raised = {name: dataset[f"{name}.range_flags"].values.astype(int) for name in assembly.contacts}
-    total = dataset.sizes["time"]
     for flag in RangeFlag:
-        up = {name: (values & flag) > 0 for name, values in raised.items()}
-        who = [name for name, rows in up.items() if rows.any()]
+        up = {name: (rows["range_flags"].values.astype(int) & flag) > 0 for name, rows in contacts.items()}
+        who = [name for name in contacts if up[name].any()]
         if not who:
             continue
-        count = int(np.logical_or.reduce([up[name] for name in who]).sum())
-        worst = max(who, key=lambda name: float(dataset[f"{name}.load"].values[up[name]].max()))
-        rows = of_contact(assembly, dataset, worst).isel(time=up[worst])
-        number = flags.by_how_much(flag, assembly.contacts[worst].own_scene, rows)
-        where = f"{worst}: " if len(assembly.contacts) > 1 else ""
-        named = _named(who, list(assembly.contacts))
-        when = "all rows" if count == total else f"{count} of {total} rows"
-        yield f"Range, {named}{when}: {flag.text}" + (f" ({where}{number})." if number else ".")
+        worst = max(who, key=lambda name: _load(contacts[name], up[name]))
+        scene = assembly.contacts[worst].own_scene
+        number = flags.by_how_much(flag, scene, contacts[worst].isel(time=up[worst]))
+        where = f"{worst}: " if len(contacts) > 1 else ""
+        count, total = max(int(up[name].sum()) for name in who), contacts[worst].sizes["time"]
+        when = "all rows" if all(up[name].all() for name in who) else f"{count} of {total} rows"
+        most = "up to " if len(who) > 1 and count < total else ""
+        named = _named(who, list(contacts))
+        yield f"Range, {named}{most}{when}: {flag.text}" + (f" ({where}{number})." if number else ".")
+
+
+def _load(rows: xr.Dataset, marked: NDArray[np.bool_]) -> float:
+    """Return the largest load [N] in motion in marked rows; below zero without any."""
+    moving = marked & (rows["speed_1"].values + rows["speed_2"].values != 0.0)
+    return float(rows["load"].values[moving].max(initial=-1.0))
 
 
 def _named(who: Sequence[str], every: Sequence[str]) -> str:
@@ -132,41 +145,51 @@ def _named(who: Sequence[str], every: Sequence[str]) -> str:
 def of_contact(assembly: Assembly, dataset: xr.Dataset, name: str) -> xr.Dataset:
     """Return what a machine's run has of a contact, by the names that the run of a contact has.
 
-    Inputs that do not change and temperatures of bodies are added where the run does not record them.
+    Inputs that the run does not record, as the schedule or nothing sets them, and temperatures of bodies are added.
     """
     before = f"{name}."
     own = {key: str(key).removeprefix(before) for key in dataset.variables if str(key).startswith(before)}
     found = dataset[list(own)].rename(own)
-    given = {key: value for key, value in assembly.contacts[name].parameters.items() if key in _POINT}
-    for key, value in given.items():
-        if key not in found:
-            found[key] = ("time", np.full(found.sizes["time"], float(value)))
+    point = assembly.contacts[name].own_scene.operation.point
+    for f in fields(point):
+        course = assembly.schedule.get(f"{name}.{f.name}")
+        value = getattr(point, f.name)
+        if f.name in found or (course is None and value is None):
+            continue
+        held = _held(course, dataset["time"].values) if course else float(value)
+        found[f.name] = ("time", np.broadcast_to(held, dataset.sizes["time"]))
     for body in (1, 2):
         if f"temperature_{body}" not in found:
             found[f"temperature_{body}"] = found.get(f"body_temperature_{body}", found["temperature"])
     return found
 
 
-def _verdict(assembly: Assembly, dataset: xr.Dataset) -> Iterator[str]:
+def _held(course: Sequence[tuple[float, Any]], times: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the values that a scheduled input has in the steps that end at some times [s]."""
+    starts, values = (np.array(column, dtype=float) for column in zip(*course, strict=True))
+    return values[np.maximum(np.searchsorted(starts, times, "left") - 1, 0)]
+
+
+def _verdict(assembly: Assembly, contacts: Mapping[str, xr.Dataset]) -> Iterator[str]:
     """Yield what is known least at the last row under load of each contact, and what would make it surer."""
-    names, total = list(assembly.contacts), dataset.sizes["time"]
-    invalid = sum(int((~dataset[f"{name}.valid"].values).sum()) for name in names)
+    total = next(iter(contacts.values())).sizes["time"]
+    invalid = sum(int((~rows["valid"].values.astype(bool)).sum()) for rows in contacts.values())
     if invalid:
         yield f"Verdict: contacts have {invalid} INVALID rows; their outputs stand there as they were before."
         return
     known: dict[str, list[tuple[str, verdict.Known]]] = {}
-    for name in names:
-        loaded = np.flatnonzero(dataset[f"{name}.load"].values > 0.0)
+    for name, rows in contacts.items():
+        loaded = np.flatnonzero(rows["load"].values > 0.0)
         if len(loaded):
-            for each in verdict.known(dataset.isel(time=int(loaded[-1])), {}, name):
+            for each in verdict.known(rows.isel(time=int(loaded[-1])), {}):
                 known.setdefault(each.word, []).append((name, each))
     if not known:
         yield f"Verdict: all {total} rows were computed; no errors are stated."
         return
-    parts = [_least(found, len(names)) for found in known.values()]
+    parts = [_least(found, len(contacts)) for found in known.values()]
     surer = verdict.way_out(contact.own_scene for contact in assembly.contacts.values())
     surer = surer.replace("film.model=auto or deterministic", "contact.film.model=auto")
-    words = "known at the end" if len(names) == 1 else "known at the end, where it is known least"
+    words = "known at the end" if len(contacts) == 1 else "known at the end, where it is known least"
     yield f"Verdict: {words}: {', '.join(parts)}. {surer}".rstrip()
 
 

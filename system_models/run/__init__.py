@@ -3,6 +3,7 @@
     duty, duty_table              load, speeds and temperature against time: constant, steps, or a CSV
     contact                       a contact's FMU through a duty
     origin                        identity of a contact's run
+    assumed                       values that a scene has left to defaults
     causes                        errors at the end of a contact's run, by their causes
     fields, maps                  maps and profiles of a run at some times: collected, and as variables of its result
     track_picture                 picture of wear tracks and tribofilms

@@ -102,7 +102,10 @@ def _sliding(scene: Scene, rows: xr.Dataset) -> str:
 
 def _outside(scene: Scene, rows: xr.Dataset) -> str:
     """Return which numbers of the fitted curves are beyond their ranges, of surfaces as new."""
-    for row in sorted(_some(rows), key=_load, reverse=True):
+    some = sorted(_some(rows), key=_load, reverse=True)
+    if not some:
+        return "at rest"
+    for row in some:
         case = Case.at(scene, operating_point(row))
         if case.op.slides and 0.0 in case.speeds:
             return "a body stands still; they are of two that move"

@@ -72,22 +72,19 @@ def sentence(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> 
     return f"Verdict: known at the end: {'; '.join(parts)}. {way_out([scene])}".rstrip()
 
 
-def known(last: xr.Dataset, errors: Mapping[str, Error], contact: str = "") -> list[Known]:
-    """Return how well the outputs of a contact are known at a row; of both bodies the one known less.
-
-    `contact` is its name in the result of a machine.
-    """
-    before, found = f"{contact}." if contact else "", []
+def known(last: xr.Dataset, errors: Mapping[str, Error]) -> list[Known]:
+    """Return how well the outputs of a contact are known at a row; of both bodies the one known less."""
+    found: list[Known] = []
     for name, word in NAMES.items():
-        outputs = [each for each in (name, f"{name}_1", f"{name}_2") if f"{before}{each}_error" in last.coords]
-        every = [_known(last, before, each, word, errors.get(each)) for each in outputs]
+        outputs = [each for each in (name, f"{name}_1", f"{name}_2") if f"{each}_error" in last.coords]
+        every = [_known(last, each, word, errors.get(each)) for each in outputs]
         found += sorted((each for each in every if each), key=lambda each: -each.half)[:1]
     return found
 
 
-def _known(last: xr.Dataset, before: str, output: str, word: str, error: Error | None) -> Known | None:
+def _known(last: xr.Dataset, output: str, word: str, error: Error | None) -> Known | None:
     """Return how well an output is known; None of one that is zero and no share."""
-    half, value = float(last[f"{before}{output}_error"]), abs(float(last[f"{before}{output}"]))
+    half, value = float(last[f"{output}_error"]), abs(float(last[output]))
     if output in SHARES:
         return Known(word, half, True, says_nothing(output, value, half), error)
     return Known(word, half / value, False, says_nothing(output, value, half), error) if value > 0.0 else None
