@@ -7,6 +7,7 @@ import numpy as np
 from contact_core.state import Error
 
 from ..machines.coupling_error import ATTRIBUTE as COUPLING
+from ..run.half_widths import SHARES
 from .markup import Raw, folded, heading, paragraph, section, table, text
 from .opened import Run
 from .panels import values
@@ -61,7 +62,7 @@ def _by_cause(run: Run, contact: str) -> Iterator[str]:
         unit = unit_for(variable.attrs["units"], [value])
         halves = [unit.factor * getattr(error, cause) for cause in used]
         together = unit.factor * error.together
-        relative = f"{abs(error.together / value):.0%}" if value else "–"
+        relative = f"{abs(error.together / value):.0%}" if value and name not in SHARES else "–"
         rows.append(
             [
                 named(name),
@@ -120,9 +121,10 @@ def _of_contacts(run: Run) -> Iterator[str]:
         rows.append([contact, *last, _largest_causes(run, contact)])
     heads = ["contact", *kinds.values(), "mostly by"]
     yield table(heads, rows, "numbers", "Half widths relative to the value; “–”: none is stated")
-    for contact in run.contacts:
-        if run.causes.get(contact):
-            yield folded(f"Contact {contact} by cause", *_by_cause(run, contact))
+    known = [contact for contact in run.contacts if run.causes.get(contact)]
+    parts = [part for contact in known for part in (heading(f"Contact {contact}"), *_by_cause(run, contact))]
+    if parts:
+        yield folded("The causes of each output's error, contact by contact", *parts)
 
 
 def _relative(run: Run, contact: str, key: str) -> str:

@@ -17,6 +17,7 @@ _SLOW = 1e-3  # m/s: smaller speeds take one, too
 _VOLUME = 1e-18  # m3: a cubic micrometre
 _TIMES = ((300.0, 1.0, "s"), (5.0 * 3600.0, 60.0, "min"), (math.inf, 3600.0, "h"))  # up to [s], in s, name
 _MOST_DIGITS = 5  # after the point: longer numbers have an exponent
+_NOTHING = 1e-9  # in the unit that people read
 _OVERFLOW = 2.0  # a prefix serves from this many of its unit on
 _EXPONENTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _RPM = 30.0 / math.pi
@@ -77,10 +78,17 @@ def time_unit(end: float) -> Unit:
     return next(Unit(name, 1.0 / factor) for most, factor, name in _TIMES if end <= most)
 
 
+def negligible(value: float) -> bool:
+    """Return True for a number in the unit people read that is as good as none."""
+    return abs(value) < _NOTHING
+
+
 def stated(value: float, half: float | None = None) -> str:
     """Return a number as text, with the half width of its error where there is one, to its first digits."""
     if not math.isfinite(value):
         return "not known"
+    if negligible(value) and (half is None or negligible(half)):
+        return "0"
     if half is None or half == 0.0:
         return f"{value:.4g}"
     if not math.isfinite(half):

@@ -4,13 +4,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..run.half_widths import says_nothing
+from ..run.half_widths import UNKNOWN, says_nothing
 from ..store.results import ERROR
 from .errors import CAUSES
 from .markup import Raw, paragraph, section, table, text
 from .opened import Run
 from .panels import MAIN, Panel, band, unit_of, values
-from .shown import Unit, stated, time_unit
+from .shown import Unit, negligible, stated, time_unit
 from .trust import invalid, marked, raised, why_invalid
 
 _LARGE = 0.2  # relative half width from which an end value is called uncertain
@@ -63,12 +63,24 @@ def _end(run: Run, panel: Panel, contact: str) -> Iterator[tuple[str, float, flo
             yield label, float(unit.of(last)[0]), None if half is None else float(half[-1]), unit
 
 
+def _stated(panel: Panel, value: float, half: float | None) -> str:
+    """Return a value of a panel with its half width, or that it is not known."""
+    if panel.share and half is not None and says_nothing(panel.quantities[0], value, half):
+        return UNKNOWN
+    return stated(value, half)
+
+
+def _unit(value: float, unit: Unit) -> str:
+    """Return the unit behind a value; nothing is nothing in any unit."""
+    return "" if negligible(value) and not unit.offset else unit.name
+
+
 def _cards(run: Run) -> str:
     """Return the end values as cards."""
     cards = []
     for panel in MAIN:
         lines = [
-            f'<p><span class="value">{text(stated(value, half))}</span> {text(unit.name)}'
+            f'<p><span class="value">{text(_stated(panel, value, half))}</span> {text(_unit(value, unit))}'
             + (f' <span class="who">{text(label)}</span>' if len(panel.quantities) > 1 else "")
             + "</p>"
             for label, value, half, unit in _end(run, panel, "")
@@ -92,7 +104,8 @@ def _of_contacts(run: Run) -> str:
         cells: list[object] = [contact]
         for panel in MAIN:
             found = list(_end(run, panel, contact))
-            cells.append(Raw("<br>".join(text(f"{stated(v, h)} {u.name}".rstrip()) for _, v, h, u in found) or "–"))
+            shown = (text(f"{_stated(panel, v, h)} {_unit(v, u)}".rstrip()) for _, v, h, u in found)
+            cells.append(Raw("<br>".join(shown) or "–"))
         rows.append(cells)
     more = f" {len(run.contacts) - len(rows)} more are below." if len(run.contacts) > len(rows) else ""
     caption = f"Contacts at the end, the least lambda ratio first; of tribofilm and wear body 1 over body 2.{more}"

@@ -9,7 +9,9 @@ import xarray as xr
 from contact_core.quantities import TABLE
 from contact_core.state import RangeFlag
 
+from ..machines import trust as machine_trust
 from ..run import cosim_report
+from ..run.flags import by_how_much
 from .chart import Chart, Line, figure
 from .errors import named
 from .markup import heading, paragraph, printed, section, table, text
@@ -123,9 +125,22 @@ def _flag_row(run: Run, flag: RangeFlag, contacts: list[str]) -> list[object]:
     when = "throughout" if up.all() else f"{clock.of(begin):.3g} to {clock.of(end):.3g} {clock.name}"
     when += f", {count} of {len(times)} rows" + (f" in {len(found)} stretches" if len(found) > 1 else "")
     remedy, shown = _REMEDY[flag]
-    much = [each for key in shown for each in _how_much(run, contacts, key, up)]
+    beyond = _beyond(run, flag, contacts)
+    much = [beyond] if beyond else [each for key in shown for each in _how_much(run, contacts, key, up)]
     who = [] if run.of_contact else [", ".join(contacts)]
     return [f"{flag.text[0].upper()}{flag.text[1:]}.", *who, when, "; ".join(much) or "–", remedy]
+
+
+def _beyond(run: Run, flag: RangeFlag, contacts: list[str]) -> str:
+    """Return which quantity is beyond which limit, in the most loaded contact that raises a flag."""
+    if run.scene is not None:
+        return by_how_much(flag, run.scene, run.dataset.isel(time=marked(run, flag, contacts)))
+    if run.machine is None:
+        return ""
+    assembly = run.machine.assembly
+    rows = {name: machine_trust.of_contact(assembly, run.dataset, name) for name in contacts}
+    name, number = machine_trust.beyond(assembly, rows, flag)
+    return f"{name}: {number}" if number and len(run.contacts) > 1 else number
 
 
 def _how_much(run: Run, contacts: list[str], key: str, marked: np.ndarray) -> Iterator[str]:

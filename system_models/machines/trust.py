@@ -112,19 +112,28 @@ def told(kind: Kind, assembly: Assembly, dataset: xr.Dataset) -> list[str]:
 def sentences(assembly: Assembly, contacts: Mapping[str, xr.Dataset]) -> Iterator[str]:
     """Yield a sentence for each flag that some contact raises, with the contacts, the quantity and by how much."""
     for flag in RangeFlag:
-        up = {name: (rows["range_flags"].values.astype(int) & flag) > 0 for name, rows in contacts.items()}
-        who = [name for name in contacts if up[name].any()]
-        if not who:
+        up = {name: rows for name, rows in ((name, _up(contacts[name], flag)) for name in contacts) if rows.any()}
+        if not up:
             continue
-        worst = max(who, key=lambda name: _load(contacts[name], up[name]))
-        scene = assembly.contacts[worst].own_scene
-        number = flags.by_how_much(flag, scene, contacts[worst].isel(time=up[worst]))
+        worst, number = beyond(assembly, {name: contacts[name] for name in up}, flag)
         where = f"{worst}: " if len(contacts) > 1 else ""
-        count, total = max(int(up[name].sum()) for name in who), contacts[worst].sizes["time"]
-        when = "all rows" if all(up[name].all() for name in who) else f"{count} of {total} rows"
-        most = "up to " if len(who) > 1 and count < total else ""
-        named = _named(who, list(contacts))
+        count, total = max(int(rows.sum()) for rows in up.values()), len(up[worst])
+        when = "all rows" if all(rows.all() for rows in up.values()) else f"{count} of {total} rows"
+        most = "up to " if len(up) > 1 and count < total else ""
+        named = _named(list(up), list(contacts))
         yield f"Range, {named}{most}{when}: {flag.text}" + (f" ({where}{number})." if number else ".")
+
+
+def beyond(assembly: Assembly, contacts: Mapping[str, xr.Dataset], flag: RangeFlag) -> tuple[str, str]:
+    """Return the most loaded contact of those that raise a flag, and which of its quantities is beyond which limit."""
+    worst = max(contacts, key=lambda name: _load(contacts[name], _up(contacts[name], flag)))
+    rows = contacts[worst].isel(time=_up(contacts[worst], flag))
+    return worst, flags.by_how_much(flag, assembly.contacts[worst].own_scene, rows)
+
+
+def _up(rows: xr.Dataset, flag: RangeFlag) -> NDArray[np.bool_]:
+    """Return the rows of a contact in which a flag is up."""
+    return np.asarray((rows["range_flags"].values.astype(int) & flag) > 0)
 
 
 def _load(rows: xr.Dataset, marked: NDArray[np.bool_]) -> float:
