@@ -102,6 +102,7 @@ def _sliding(scene: Scene, rows: xr.Dataset) -> str:
 
 def _outside(scene: Scene, rows: xr.Dataset) -> str:
     """Return which numbers of the fitted curves are beyond their ranges, of surfaces as new."""
+    scene = scene.at_level("regression")
     some = sorted(_some(rows), key=_load, reverse=True)
     if not some:
         return "at rest"

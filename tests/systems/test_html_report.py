@@ -23,6 +23,8 @@ from system_models.html_report.maps import decoded, encoded
 from system_models.html_report.opened import Run, open_run
 from system_models.html_report.page import page
 from system_models.html_report.shown import stated, unit_for
+from system_models.run.assumed import ATTRIBUTE as ASSUMED
+from system_models.run.assumed import stored as stored_values
 from system_models.run.causes import ATTRIBUTE
 from system_models.store.checkpoint import Checkpoint
 
@@ -159,7 +161,7 @@ def test_maps_are_those_of_the_result(parsed: Parsed, result: xr.Dataset) -> Non
         values = decoded(each["low"], each["high"], each["data"], (3, *each["shape"]))
         factor = {"Pa": 1.0, "kPa": 1e-3, "MPa": 1e-6, "GPa": 1e-9, "nm": 1e9, "µm": 1e6}[each["unit"]]
         assert np.abs(values - factor * expected).max() < 1e-4 * factor * np.abs(expected).max(), title
-    assert len(parsed.data["maps-data"]["times"]) == 3
+    assert len(parsed.data["maps-data"]["times"]) == 4
 
 
 def test_codes_keep_missing_values() -> None:
@@ -170,7 +172,7 @@ def test_codes_keep_missing_values() -> None:
 
 def test_causes_add_up_to_the_stated_error(result: xr.Dataset, opened: Run, parsed: Parsed) -> None:
     causes = json.loads(result.attrs[ATTRIBUTE])
-    assert causes == opened.causes
+    assert causes == opened.causes[""]
     for name in ("h_c", "friction_coefficient", "contact_load_ratio", "tribofilm_1"):
         assert math.hypot(*causes[name].values()) == approx(float(result[f"{name}_error"].values[-1]), rel=1e-9)
         assert causes[name]["grid"] > 0.0
@@ -246,7 +248,7 @@ def test_an_interrupted_run_is_shown_as_far_as_it_went(
     assert "at 60 s of 90 s" in found.text
     line = found.data["points-history-0-1"]["lines"][0]
     assert line["y"] == approx(1e9 * run.dataset["h_c"].values, rel=1e-4)
-    assert run.causes["h_c"]["grid"] > 0.0
+    assert run.causes[""]["h_c"]["grid"] > 0.0
     assert main(["report", str(tmp_path)]) == 0
     capsys.readouterr()
 
@@ -277,6 +279,88 @@ def test_a_machine_is_shown_with_its_report_its_parts_and_its_contact(tmp_path: 
     assert any(each.startswith("data:image/png") for each in found.loaded)
     friction = found.data["points-contact-0-0"]["lines"][0]
     assert friction["y"][-1] == approx(float(run.dataset["contact.friction_coefficient"].values[-1]), rel=1e-4)
+
+
+GEARS = ["run", "gear_fzg_c", "--unchecked", "--set", "mesh.stations=4"]
+
+
+def test_contacts_of_machines_have_errors_by_cause_flags_in_numbers_and_assumed_values(tmp_path: Path) -> None:
+    assert main([*GEARS, "--hours", "0.02", "--out", str(tmp_path)]) == 0
+    run = open_run(tmp_path)
+    assert run.machine is not None
+    halves = run.causes["flank_02"]["h_c"]
+    assert halves["curves"] == approx(float(run.dataset["flank_02.h_c_error"].values[-1]), rel=1e-9)
+    found = Parsed(page(run))
+    assert self_contained(found)
+    assert "Contact flank_02" in found.text.split("Errors by cause")[1]
+    assert found.text.count("Fitted curves: the regression level's distance from the deterministic level.") == 4
+    assert "degC: fitted from 60 to 120 degC" in found.text.split("by how much")[1]  # the oil starts at 40 degC
+    assert "Nothing: the scene gives every value itself." in found.text
+    assert "theta_int" in found.text.split("Columns:")[1]
+
+
+def test_contacts_of_machines_that_are_solved_have_all_causes(tmp_path: Path) -> None:
+    solved = [*COARSE[:1], *COARSE[2:], "film.model=deterministic", "film.domain=0.5 mm"]
+    settings = [f"contact.{each}" for each in solved]
+    duty = tmp_path / "short.csv"
+    duty.write_text("time [s],entrainment_speed [m/s],slide_roll_ratio [1]\n0,0.1,0.05\n2,0.1,0.05\n")
+    out = tmp_path / "rig"
+    assert main(["run", "mtm_rig", "--unchecked", "--duty", str(duty), "--set", *settings, "--out", str(out)]) == 0
+    run = open_run(out)
+    film = run.causes["contact"]["h_c"]
+    assert film["grid"] > 0.0 and film["curves"] == 0.0
+    assert math.hypot(*film.values()) == approx(float(run.dataset["contact.h_c_error"].values[-1]), rel=1e-6)
+
+
+def test_an_interrupted_machine_has_its_tables(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    save = Checkpoint.save
+
+    def saved_and_interrupted(self: Checkpoint, time: float, *rest: Any) -> None:
+        save(self, time, *rest)
+        if time >= 20.0:
+            raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Checkpoint, "save", saved_and_interrupted)
+        patch.setattr(Checkpoint, "due", lambda self: True)
+        assert main([*GEARS, "--hours", "0.02", "--out", str(tmp_path)]) == 130
+    run = open_run(tmp_path)
+    assert (run.finished, run.planned) == (False, 72.0)
+    assert run.machine is not None and run.title.startswith("FZG type C gears")
+    assert run.dataset["shafts.speed_1"].attrs["units"] == "rad/s"
+    found = Parsed(page(run))
+    assert self_contained(found)
+    lines = run.machine.kind.lines(run.machine.assembly, run.dataset)
+    assert all(line in found.text for line in lines if len(line) < 80)
+    assert "UNFINISHED" in found.text and "Columns: n1, T1: speed and torque of the pinion" in found.text
+    assert run.causes["flank_02"]["friction_coefficient"]["curves"] > 0.0
+    assert any(each.startswith("data:image/png") for each in found.loaded)
+
+
+def test_assumed_values_are_told_where_the_result_has_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "own"]) == 0
+    scene = tmp_path / "own.toml"
+    out = tmp_path / "run"
+    quick = ["--set", "film.model=regression", "operation.duration=2 min"]
+    assert main(["run", str(scene), *quick, "--out", str(out)]) == 0
+    run = open_run(out)
+    told = Parsed(page(run)).text.split("what the scene does not say")[1]
+    assert "surface_1.correlation_length" in told and "8 um as in the shipped scenes" in told
+    attributes = {key: value for key, value in run.dataset.attrs.items() if key != ASSUMED}
+    bare = run.dataset.copy()
+    bare.attrs = attributes
+    older = replace(run, dataset=bare, assumed=stored_values(attributes))
+    assert "This result does not say it: an older version has made it." in Parsed(page(older)).text
+
+
+def test_a_share_that_may_be_anything_is_not_called_known(opened: Run) -> None:
+    changed = opened.dataset.copy(deep=True)
+    changed["contact_load_ratio"].values[:], changed["contact_load_ratio_error"].values[:] = 1e-30, 1.0
+    text = Parsed(page(replace(opened, dataset=changed))).text
+    assert "Load carried by solids is not known: its error leaves all open." in text
+    assert "unknown" in text
+    assert "00000%" not in text
 
 
 def test_a_folder_without_results_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -367,6 +451,7 @@ def test_a_difference_of_temperatures_stays_in_kelvin() -> None:
         (5.2, 0.14, "5.20 ± 0.14"),
         (1.0, math.inf, "1 ± ?"),
         (1.7e-7, 5e-8, "1.7e-07 ± 5e-08"),
+        (3.9e-208, 4e-16, "0"),
     ],
 )
 def test_values_are_stated_to_the_digits_of_their_error(value: float, half: float, text: str) -> None:
