@@ -161,7 +161,7 @@ def test_maps_are_those_of_the_result(parsed: Parsed, result: xr.Dataset) -> Non
         values = decoded(each["low"], each["high"], each["data"], (3, *each["shape"]))
         factor = {"Pa": 1.0, "kPa": 1e-3, "MPa": 1e-6, "GPa": 1e-9, "nm": 1e9, "µm": 1e6}[each["unit"]]
         assert np.abs(values - factor * expected).max() < 1e-4 * factor * np.abs(expected).max(), title
-    assert len(parsed.data["maps-data"]["times"]) == 4
+    assert len(parsed.data["maps-data"]["times"]) == 3
 
 
 def test_codes_keep_missing_values() -> None:
