@@ -125,11 +125,12 @@ def test_the_verdict_names_the_contact_that_knows_least(gears: tuple[Assembly, x
     assembly, dataset = gears
     changed = dataset.copy(deep=True)
     for name in assembly.contacts:
-        values = {"friction_coefficient": (0.05, 0.005), "h_c": (1e-7, 1e-8), "contact_load_ratio": (0.1, 0.05)}
+        values = {"friction_coefficient": (0.05, 0.005), "h_c": (1e-7, 1e-8), "contact_load_ratio": (0.1, 0.6)}
         for output, (value, half) in values.items():
             changed[f"{name}.{output}"].values[:], changed[f"{name}.{output}_error"].values[:] = value, half
     changed["flank_02.h_c_error"].values[:] = 5e-8
-    changed["flank_03.contact_load_ratio_error"].values[:] = 1.0
+    changed["flank_03.contact_load_ratio"].values[:] = 0.5
+    changed["flank_03.contact_load_ratio_error"].values[:] = 0.55  # less than elsewhere, and yet from 0 to 1
     verdict = trust.told(KINDS["gear_pair"], assembly, changed)[-1]
     assert "friction to 10 % (flank_01)" in verdict
     assert "film only to 50 % (flank_02)" in verdict
