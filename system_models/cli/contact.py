@@ -11,13 +11,14 @@ from contact_core.scene import Scene
 from .console import note, output_folder
 from .overwriting import ask_before
 from .progress import continued_by_resume, note_replaced, shown
-from .scenes import chosen, contact, microroughness, warn
+from .scenes import chosen, contact_of, microroughness, settings_of, warn
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     import xarray as xr
 
+    from contact_core.scene import Assumed
     from contact_core.state import Error
 
     from ..run.duty import Duty
@@ -29,12 +30,12 @@ def run(arguments: argparse.Namespace) -> int:
     """Run the contact of a scene and return the exit code."""
     from ..store.checkpoint import alone
 
-    scene, duty = contact(arguments)
+    scene, duty, _, assumed = contact_of(arguments, settings_of(arguments))
     fields = _fields(arguments.fields, scene, duty)
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
     warn(scene.warnings())
     with alone(folder):
-        return _run_in(folder, scene, duty, fields, arguments)
+        return _run_in(folder, scene, duty, fields, assumed, arguments)
 
 
 def _fields(given: str | None, scene: Scene, duty: "Duty") -> "Fields | None":
@@ -50,11 +51,20 @@ def _fields(given: str | None, scene: Scene, duty: "Duty") -> "Fields | None":
     return Fields(scene, duty, points, int(given))
 
 
-def _run_in(folder: Path, scene: Scene, duty: "Duty", fields: "Fields | None", arguments: argparse.Namespace) -> int:
+def _run_in(
+    folder: Path,
+    scene: Scene,
+    duty: "Duty",
+    fields: "Fields | None",
+    assumed: "Sequence[Assumed]",
+    arguments: argparse.Namespace,
+) -> int:
+    from ..run import assumed as assumed_values
     from ..run import origin
 
+    about = assumed_values.attribute(assumed)
     count, resume = len(fields.times) if fields else 0, arguments.resume
-    checkpoint = _checkpoint(folder, scene, duty, count, resume)
+    checkpoint = _checkpoint(folder, scene, duty, count, resume, about)
     if resume and not checkpoint.saved and (code := _finished(folder, scene, duty, count)) is not None:
         return code
     if not checkpoint.saved:
@@ -62,23 +72,25 @@ def _run_in(folder: Path, scene: Scene, duty: "Duty", fields: "Fields | None", a
         introduce(scene, duty)
     with continued_by_resume(lambda: checkpoint.file if checkpoint.count else None):
         dataset, errors = _simulate(scene, duty, checkpoint, fields)
-        code = _report(dataset, errors, scene, duty, folder, fields)
+        code = _report(dataset.assign_attrs(about), errors, scene, duty, folder, fields)
     checkpoint.remove()
     return code
 
 
-def _checkpoint(folder: Path, scene: Scene, duty: "Duty", fields: int, resume: bool) -> "Checkpoint":
+def _checkpoint(
+    folder: Path, scene: Scene, duty: "Duty", fields: int, resume: bool, about: "Mapping[str, str]"
+) -> "Checkpoint":
     """Return the checkpoint of the run; say on stderr whether the run continues from it."""
     from ..run.origin import identity
     from ..store.checkpoint import Checkpoint
 
     run = identity(scene, duty, fields)
     if not resume:
-        checkpoint = Checkpoint(folder, run)
+        checkpoint = Checkpoint(folder, run, about)
         if checkpoint.file.exists():
             note_replaced(checkpoint.file)
         return checkpoint
-    checkpoint = Checkpoint.resume(folder, run)
+    checkpoint = Checkpoint.resume(folder, run, about)
     if checkpoint.saved:
         note(f"Continuing from '{checkpoint.file}' at {checkpoint.saved.time / 60.0:.1f} min.")
     return checkpoint
@@ -133,9 +145,9 @@ def _simulate(
     scene: Scene, duty: "Duty", checkpoint: "Checkpoint", fields: "Fields | None"
 ) -> "tuple[xr.Dataset, Mapping[str, Error]]":
     """Build the FMU and drive it, with a progress bar in minutes of test time; return the errors at the end, too."""
-    from contact_core import ContactState, uncertainty
     from fmu_src.package.build import build
 
+    from ..run import causes
     from ..run.contact import run
 
     duration, since = scene.operation.duration, checkpoint.saved.time if checkpoint.saved else 0.0
@@ -144,5 +156,5 @@ def _simulate(
         fmu = build(scene, Path(folder) / f"{scene.name}.fmu", "embedded")
         last: list[bytes] = []
         dataset = run(fmu, duty, duration, scene.operation.interval, progress, checkpoint, fields, last.append)
-    known = last and last[0]  # no state: nothing has been solved
-    return dataset, uncertainty(scene, ContactState.from_bytes(last[0], scene)) if known else {}
+    # a run that continues from its end takes no step, and looks at no state
+    return dataset, causes.of_state(scene, last[0]) if last else causes.at_point(scene, checkpoint)

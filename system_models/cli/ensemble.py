@@ -51,7 +51,7 @@ def _checked(arguments: argparse.Namespace, members: "Members") -> "tuple[Scene,
     from contact_core.scene import Scene
 
     base, first = settings_of(arguments), dict(members.settings[0])
-    scene, duty, settings = contact_of(arguments, base | first)
+    scene, duty, settings, _ = contact_of(arguments, base | first)
     settings = {key: value for key, value in settings.items() if key not in first}
     doubts = dict.fromkeys(scene.warnings())
     for name, chosen in zip(members.names[1:], members.settings[1:], strict=True):

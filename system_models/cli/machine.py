@@ -9,8 +9,11 @@ from .console import note, output_folder, refuse_empty
 from .scenes import tell_assumed
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray as xr
 
+    from contact_core.scene import Assumed
     from fmu_src.flavours import Flavour
 
     from ..machines.assembly import Assembly
@@ -26,11 +29,12 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.duty:
         machine.table["duty"] = timeline.with_file(machine.table.get("duty", {}), Path(arguments.duty).absolute())
     assembly = reading.assemble(machine)
-    tell_assumed(tables.scene_and_assumed(machine.table)[1])
+    assumed = tables.scene_and_assumed(machine.table)[1]
+    tell_assumed(assumed)
     if arguments.ssp:
         return _export(assembly, arguments.ssp, arguments.flavour or "isolated")
     folder = output_folder(arguments.out, machine.name)
-    return _run_in(folder, assembly, machine, arguments)
+    return _run_in(folder, assembly, machine, assumed, arguments)
 
 
 def _changes(arguments: argparse.Namespace) -> dict[str, str]:
@@ -57,32 +61,43 @@ def _export(assembly: "Assembly", path: str, flavour: "Flavour") -> int:
     return 0
 
 
-def _run_in(folder: Path, assembly: "Assembly", machine: "Machine", arguments: argparse.Namespace) -> int:
+def _run_in(
+    folder: Path,
+    assembly: "Assembly",
+    machine: "Machine",
+    assumed: "Sequence[Assumed]",
+    arguments: argparse.Namespace,
+) -> int:
     import tempfile
 
+    from ..machines import trust as machine_trust
     from ..machines.reading import described
+    from ..run import assumed as assumed_values
+    from ..run import trust
     from .simulation import carry_out
 
     unchecked: bool = arguments.unchecked
     flavour: Flavour = arguments.flavour or "embedded"
+    print(*trust.wrapped(assembly.description), *machine_trust.before(machine, assembly), "", sep="\n", flush=True)
     settings = {**assembly.settings, "outputs": assembly.outputs()}
     checks = "left out" if unchecked else "error_coupling, resolved.nc"
+    about = {**described(machine), **assumed_values.attribute(assumed)}
     attributes = {"title": assembly.description, "machine": assembly.name, "checks": checks}
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as files:
         system = assembly.system(Path(files), flavour, here=True)
 
         def report(dataset: "xr.Dataset", folder: Path) -> int:
-            dataset = dataset.assign_attrs(described(machine))
             code = _report(dataset, folder, assembly, machine.kind)
             return code if unchecked else _check(dataset, folder, assembly, system, code)
 
         return carry_out(
-            system, settings, assembly.name, folder, arguments.resume, arguments.force, report, **attributes
+            system, settings, assembly.name, folder, arguments.resume, arguments.force, report, about, **attributes
         )
 
 
 def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:
     """Print and write the result; return the exit code."""
+    from ..machines import causes, trust
     from ..machines import report as machine_report
     from ..machines.registry import kinds
     from ..run import cosim_report
@@ -91,9 +106,10 @@ def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str
 
     described = kinds()[kind]
     dataset = results.with_half_widths(dataset)
-    print(assembly.description, "", *described.lines(assembly, dataset), "", sep="\n")
+    print(*described.lines(assembly, dataset), "", *trust.after(described, assembly, dataset), "", sep="\n")
     print(*machine_report.lines(assembly, dataset), "", *cosim_report.closing_lines(dataset), "", sep="\n")
     code = 1 if cosim_report.unreliable_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0
+    dataset = dataset.assign_attrs(causes.attribute(assembly, dataset, folder))
     written = results.write(dataset.assign_attrs({EXIT_CODE: code}), folder)
     print(f"Written: {', '.join(map(str, [*written, *described.pictures(assembly, dataset, folder)]))}", flush=True)
     return code

@@ -4,7 +4,7 @@ import argparse
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from contact_core.errors import ContactError
 from contact_core.quantities import UNSOLVED
@@ -48,12 +48,21 @@ def members(arguments: argparse.Namespace) -> Members | None:
 def contact(arguments: argparse.Namespace) -> "tuple[Scene, Duty]":
     """Return the scene, large enough for its duty, and the duty."""
     refuse_machine(arguments.scene)
-    scene, duty, _ = contact_of(arguments, settings_of(arguments))
+    scene, duty, _, _ = contact_of(arguments, settings_of(arguments))
     return scene, duty
 
 
-def contact_of(arguments: argparse.Namespace, overrides: dict[str, str]) -> "tuple[Scene, Duty, dict[str, str]]":
-    """Return the scene with overrides, large enough for its duty, the duty, and the overrides that make this scene."""
+class Contact(NamedTuple):
+    """A scene that commands are given, large enough for its duty."""
+
+    scene: Scene
+    duty: "Duty"
+    settings: dict[str, str]  # overrides that make this scene
+    assumed: tuple[Assumed, ...]  # values that the scene does not give
+
+
+def contact_of(arguments: argparse.Namespace, overrides: dict[str, str]) -> Contact:
+    """Return the scene with overrides and the duty; say on stderr what the scene does not give."""
     from ..run.duty import Duty
 
     scene, assumed = Scene.read(arguments.scene, overrides)
@@ -64,7 +73,7 @@ def contact_of(arguments: argparse.Namespace, overrides: dict[str, str]) -> "tup
         scene, assumed = Scene.read(arguments.scene, overrides)
     ask_back(scene, arguments.force)
     tell_assumed(assumed)
-    return duty.sized(scene), duty, overrides
+    return Contact(duty.sized(scene), duty, overrides, assumed)
 
 
 def tell_assumed(assumed: Sequence[Assumed]) -> None:

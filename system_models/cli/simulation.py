@@ -26,6 +26,7 @@ def carry_out(
     resume: bool,
     force: bool,
     report: Callable[["xr.Dataset", Path], int],
+    about: Mapping[str, str] | None = None,
     **attributes: str,
 ) -> int:
     """Simulate with a checkpoint in the folder and hand the result to `report`, whose exit code is returned.
@@ -33,7 +34,7 @@ def carry_out(
     With `resume` continue from the checkpoint; if there is none, but the result of this simulation, keep that. The
     result of another system is replaced if `force`d. The settings are the arguments of `master.simulate`. `report`
     writes the result with its exit code as the attribute EXIT_CODE; `attributes` are others of it that distinguish it
-    from results of another kind.
+    from results of another kind. `about` are attributes that do not, and that the checkpoint has, too.
     """
     origin = _origin(system, settings, name) | attributes
     checkpoint = _checkpoint(folder, system, settings, resume)
@@ -43,10 +44,10 @@ def carry_out(
     if not continues:
         ask_before(folder, origin, force)
     begin = monotonic()
-    dataset = _simulated(system, settings, name, checkpoint, continues)
+    dataset = _simulated(system, settings, name, checkpoint, continues, about or {})
     if not continues:
         dataset.attrs["wall_seconds"] = monotonic() - begin
-    code = report(dataset.assign_attrs(origin), folder)
+    code = report(dataset.assign_attrs(origin | dict(about or {})), folder)
     _remove_checkpoint(folder)
     return code
 
@@ -92,7 +93,12 @@ def _finished(folder: Path, origin: Mapping[str, str]) -> int | None:
 
 
 def _simulated(
-    system: "System", settings: Mapping[str, Any], name: str, checkpoint: Path | None, resume: bool
+    system: "System",
+    settings: Mapping[str, Any],
+    name: str,
+    checkpoint: Path | None,
+    resume: bool,
+    about: Mapping[str, str],
 ) -> "xr.Dataset":
     """Simulate, with a progress bar in seconds; an early end says how to continue."""
     from ..master import simulate
@@ -104,7 +110,7 @@ def _simulated(
 
     bar = shown(name, settings["stop_time"], "{n:.4g}/{total:.4g} s")
     with continued_by_resume(kept), bar as progress:
-        return simulate(system, **settings, checkpoint=folder, resume=resume, progress=progress)
+        return simulate(system, **settings, checkpoint=folder, resume=resume, about=about, progress=progress)
 
 
 def _stamp(file: Path | None) -> int | None:

@@ -87,12 +87,12 @@ def _report(task: "Task", plan: "Plan", outcomes: "dict[int, Outcome]", folder: 
     """Print and write the sweep; return the exit code."""
     from ..store.results import write
     from ..sweep import report
-    from ..sweep.points import ends, gathered, rows
+    from ..sweep.points import ends, gathered, rows, scene_at
     from ..sweep.sensitivity import indices
 
     dataset = gathered(task, plan, outcomes)
     found = indices(plan, ends(dataset), report.OUTPUTS) if plan.method == "indices" else []
-    said = report.lines(plan, dataset, found)
+    said = report.lines(plan, dataset, found, lambda point: scene_at(task, point)[0])
     print(dataset.attrs["title"], report.table(plan, dataset), *said, sep="\n")
     netcdf = write(dataset, folder, "sweep", table=rows(plan, dataset))
     netcdf += _means(plan, dataset, folder)

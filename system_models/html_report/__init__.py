@@ -11,7 +11,8 @@
     histories   quantities against time, of one contact, of a machine's parts and of each of its contacts
     maps        maps at times of the run as data of the page, profiles across the track
     machine     report and pictures of a machine, and its states solved again
-    trust       errors by cause, flags with their times, statistics of the solver
+    errors      errors by cause, of contacts and of the coupling of a machine's parts
+    trust       flags with their times, statistics of the solver
     origin      sources, versions, digests
     page        the page of one run
     compare     several runs in the same charts, with their bands; a table for the terminal

@@ -54,6 +54,7 @@ class Chart:
     logarithmic: bool = False
     from_zero: bool = True  # the axis begins at zero if no value is below
     downward: bool = False  # the axis of y runs down, as depths do
+    most: float | None = None  # that a value can be: bands are shown up to there, however tall
 
 
 def figure(chart: Chart, key: str) -> str:
@@ -95,7 +96,7 @@ class _Scale:
         ys = _finite(np.concatenate([line.y for line in lines]), chart.logarithmic)
         low, high = (float(ys.min()), _highest(lines, float(ys.max()))) if ys.size else (0.0, 1.0)
         if not chart.logarithmic:
-            low, high = _with_bands(lines, low, high)
+            low, high = _with_bands(lines, low, high, chart.most)
         if chart.from_zero and low >= 0.0 and not chart.logarithmic:
             low = 0.0
         span = high - low
@@ -145,15 +146,15 @@ def _finite(values: Array, positive: bool) -> Array:
     return found[found > 0.0] if positive else found
 
 
-def _with_bands(lines: Sequence[Line], low: float, high: float) -> tuple[float, float]:
-    """Return the range of lines with their bands, as far as these are not far taller."""
+def _with_bands(lines: Sequence[Line], low: float, high: float, end: float | None) -> tuple[float, float]:
+    """Return the range of lines with their bands, as far as these are not far taller, or up to an end of values."""
     most = _TALL * max(high - low, 0.1 * max(abs(low), abs(high)))
     for line in lines:
         if line.half is not None:
             shown = line.y <= high
             bottom, top = (_finite((line.y + sign * line.half)[shown], False) for sign in (-1.0, 1.0))
             low = min(low, max(float(bottom.min(initial=low)), low - most, 0.0 if low >= 0.0 else -math.inf))
-            high = max(high, min(float(top.max(initial=high)), high + most))
+            high = max(high, min(float(top.max(initial=high)), high + most if end is None else end))
     return low, high
 
 

@@ -233,4 +233,5 @@ def _overlaid(runs: Sequence[Run], contact: str, name: str, title: str, panel: P
         x, y = clock.of(run.dataset.variables["time"].values), unit.of(values(run.dataset, full))
         drawn.append(Line(names(runs)[place], x, y, band(run.dataset, full, unit), place))
     chart = Chart(title, f"time {clock.label}", f"{panel.symbol} {unit.label}", drawn, panel.caption)
-    return replace(chart, downward=panel.downward, from_zero=unit.offset == 0.0)
+    most = 1.0 if panel.share else None
+    return replace(chart, downward=panel.downward, from_zero=unit.offset == 0.0, most=most)

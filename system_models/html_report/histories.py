@@ -73,6 +73,16 @@ def _of_parts(run: Run) -> Iterator[Chart]:
         yield _together(run, part, si, stem, names[:_TOGETHER])
 
 
+def _common(labels: list[str]) -> str:
+    """Return the words with which all labels begin."""
+    found = []
+    for words in zip(*(label.split() for label in labels), strict=False):
+        if len({*words}) > 1:
+            break
+        found.append(words[0])
+    return " ".join(found)
+
+
 def _together(run: Run, part: str, si: str, stem: str, names: list[str]) -> Chart:
     clock, found = time_unit(run.reached), {name: values(run.dataset, name) for name in names}
     unit = unit_for(si, np.concatenate([*found.values()]), "rise" in names[0])
@@ -86,5 +96,5 @@ def _together(run: Run, part: str, si: str, stem: str, names: list[str]) -> Char
         )
         for place, (name, y) in enumerate(found.items())
     ]
-    title = lines[0].label if len(lines) == 1 else stem
+    title = lines[0].label if len(lines) == 1 else _common([line.label for line in lines]) or stem
     return Chart(f"{part}: {title}", f"time {clock.label}", f"{title} {unit.label}", lines, from_zero=si != "K")

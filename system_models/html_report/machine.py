@@ -7,7 +7,8 @@ from pathlib import Path
 import xarray as xr
 
 from ..machines import report as machine_report
-from .markup import heading, paragraph, picture, printed, section, table
+from ..machines import trust
+from .markup import bullets, heading, paragraph, picture, printed, section, table
 from .opened import Run
 from .shown import stated
 
@@ -29,9 +30,12 @@ def sections(run: Run) -> str:
 def _lines(run: Run) -> Iterator[str]:
     """Yield the tables that the machine's run prints."""
     if run.machine:
-        yield printed(run.machine.kind.lines(run.machine.assembly, run.dataset))
-        yield heading("Costs and levels")
-        yield printed(machine_report.lines(run.machine.assembly, run.dataset))
+        kind, assembly = run.machine.kind, run.machine.assembly
+        yield printed(kind.lines(assembly, run.dataset))
+        yield bullets(trust.told(kind, assembly, run.dataset))
+        if run.finished:  # before that they are not counted
+            yield heading("Costs and levels")
+            yield printed(machine_report.lines(assembly, run.dataset))
 
 
 def _pictures(run: Run) -> Iterator[str]:

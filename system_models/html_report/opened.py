@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -11,21 +11,24 @@ import numpy as np
 import xarray as xr
 
 from contact_core.errors import ContactError
-from contact_core.quantities import TABLE
-from contact_core.scene import Scene
+from contact_core.quantities import TABLE, Quantity
+from contact_core.scene import Assumed, Scene
 
 from ..machines.assembly import Assembly
+from ..machines.causes import of_contacts, of_result
 from ..machines.kind import Kind
 from ..machines.reading import ATTRIBUTE as MACHINE
 from ..machines.reading import assemble, from_attribute
 from ..machines.registry import kinds
+from ..master.recorder import STATISTICS
+from ..run import assumed
 from ..run.causes import ATTRIBUTE as ERRORS
-from ..run.causes import Causes, at_point
+from ..run.causes import Causes, at_point, by_cause
 from ..run.contact import communication_points
 from ..run.duty import Duty
 from ..run.fields import Fields
 from ..store.checkpoint import Checkpoint
-from ..store.results import to_dataset, with_half_widths
+from ..store.results import to_dataset
 from ..sweep.members import ATTRIBUTE as ENSEMBLE
 from ..sweep.members import FILE as MEMBERS
 
@@ -52,7 +55,9 @@ class Run:
     scene: Scene | None = None  # of a contact
     scene_table: Mapping[str, Any] = field(default_factory=dict)  # nested, as in its file
     machine: Machine | None = None
-    causes: Causes = field(default_factory=dict)  # half widths of the errors at the end, by output and cause
+    causes: Mapping[str, Causes] = field(default_factory=dict)  # half widths of errors at the end, by contact as in
+    # `contacts`, output and cause
+    assumed: Sequence[Assumed] | None = None  # values left to defaults; None: the result does not say
     files: Mapping[str, str] = field(default_factory=dict)  # sha256 by name
     members: xr.Dataset | None = None  # of an ensemble of surfaces, whose mean `dataset` is
     notes: tuple[str, ...] = ()  # what could not be read, and what follows from it
@@ -115,11 +120,12 @@ def _finished(folder: Path, result: Path) -> Run:
     files = {
         name.name: _sha256(name) for name in (result, folder / "resolved.nc", folder / "corrected.nc") if name.exists()
     }
-    run = Run(folder, dataset, float(dataset.variables["time"].values[-1]), True, files=files)
+    end = float(dataset.variables["time"].values[-1])
+    run = Run(folder, dataset, end, True, files=files, assumed=assumed.stored(dataset.attrs))
     if ENSEMBLE in dataset.attrs:
         run = _with_members(run)
     if "scene_json" in dataset.attrs:
-        found = json.loads(dataset.attrs.get(ERRORS, "{}"))
+        found = {"": json.loads(dataset.attrs.get(ERRORS, "{}"))}
         return _with_scene(replace(run, causes=found), json.loads(dataset.attrs["scene_json"]))
     return _with_machine(run)
 
@@ -163,10 +169,11 @@ def _with_machine(run: Run) -> Run:
         return run
     try:
         machine = from_attribute(text)
-        return replace(run, machine=Machine(kinds()[machine.kind], assemble(machine)))
+        kind, assembly = kinds()[machine.kind], assemble(machine)
     except (ContactError, OSError, KeyError) as error:
         note = f"The machine cannot be made again, so its own tables are left out. {error}"
         return replace(run, notes=(*run.notes, note))
+    return replace(run, machine=Machine(kind, assembly), causes=of_result(assembly, run.dataset))
 
 
 def _unfinished(folder: Path) -> Run:
@@ -183,12 +190,12 @@ def _unfinished(folder: Path) -> Run:
         "duty": about["duty"],
         "tribofmu_version": about["version"],
     }
-    run = _with_scene(Run(folder, xr.Dataset(), 0.0, False), table)
+    run = _with_scene(Run(folder, xr.Dataset(), 0.0, False, assumed=assumed.stored(checkpoint.about)), table)
     dataset = _rows(checkpoint, _CONTACT).assign_attrs(attributes)
     if run.scene is None:
         return replace(run, dataset=dataset, planned=float(dataset.variables["time"].values[-1]))
-    planned, found = run.scene.operation.duration, at_point(run.scene, checkpoint)
-    run = replace(run, dataset=dataset, planned=planned, causes=found)
+    planned, found = run.scene.operation.duration, by_cause(at_point(run.scene, checkpoint))
+    run = replace(run, dataset=dataset, planned=planned, causes={"": found})
     return _with_maps(run, checkpoint, about) if checkpoint.kept else run
 
 
@@ -210,23 +217,38 @@ def _with_maps(run: Run, checkpoint: Checkpoint, about: Mapping[str, Any]) -> Ru
 
 
 def _unfinished_system(folder: Path, checkpoint: Checkpoint, about: Mapping[str, Any]) -> Run:
-    attributes = {"title": f"{folder.name}: unfinished simulation of a system", "simulation_json": json.dumps(about)}
-    dataset = _rows(checkpoint, "").assign_attrs(attributes)
-    return Run(folder, dataset, float(about["settings"]["stop_time"]), False)
+    title = f"{folder.name}: unfinished simulation of a system"
+    attributes = {"title": title, "simulation_json": json.dumps(about), **checkpoint.about}
+    told = assumed.stored(checkpoint.about)
+    run = Run(folder, xr.Dataset(attrs=attributes), float(about["settings"]["stop_time"]), False, assumed=told)
+    run = _with_machine(replace(run, dataset=_rows(checkpoint, "").assign_attrs(attributes)))
+    if run.machine is None:
+        return run
+    assembly = run.machine.assembly
+    dataset = _rows(checkpoint, "", _quantities(assembly)).assign_attrs({**attributes, "title": assembly.description})
+    return replace(run, dataset=dataset, causes=of_contacts(assembly, dataset, checkpoint))
 
 
-def _rows(checkpoint: Checkpoint, prefix: str) -> xr.Dataset:
-    """Return the rows of a checkpoint; units are those of the quantities of contacts, of others they are not known."""
+def _quantities(assembly: Assembly) -> dict[str, Quantity]:
+    """Return the outputs of a machine's parts by the names of its result."""
+    return {f"{name}.{q.name}": q for name, part in assembly.parts.items() for q in part.responses}
+
+
+def _rows(checkpoint: Checkpoint, prefix: str, quantities: Mapping[str, Quantity] | None = None) -> xr.Dataset:
+    """Return the rows of a checkpoint; units are those of known quantities by name, of others they are not known.
+
+    Of contacts they are always known.
+    """
     assert checkpoint.saved is not None
     rows = checkpoint.saved.rows
     names = [name for name in rows.dtype.names or () if name != "time"]
     shown = {name: name.removeprefix(prefix) for name in names}
-    known = {name: TABLE.get(shown[name].rpartition(".")[2]) for name in names}
-    return with_half_widths(
-        to_dataset(
-            rows["time"],
-            {shown[name]: rows[name] for name in names},
-            {shown[name]: quantity.unit if quantity else "SI" for name, quantity in known.items()},
-            {shown[name]: quantity.text if quantity else shown[name] for name, quantity in known.items()},
-        )
+    given = quantities or {}
+    known = {name: given.get(name) or TABLE.get(shown[name].rpartition(".")[2]) for name in names}
+    said = {shown[name]: (quantity.unit, quantity.text) for name, quantity in known.items() if quantity} | STATISTICS
+    return to_dataset(
+        rows["time"],
+        {shown[name]: rows[name] for name in names},
+        {shown[name]: said.get(shown[name], ("SI", ""))[0] for name in names},
+        {shown[name]: said.get(shown[name], ("", shown[name]))[1] for name in names},
     )

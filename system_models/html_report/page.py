@@ -4,7 +4,7 @@ import re
 from importlib.resources import files
 from string import Template
 
-from . import ensemble, histories, machine, maps, origin, scene, summary, trust
+from . import ensemble, errors, histories, machine, maps, origin, scene, summary, trust
 from .markup import text
 from .opened import Run
 
@@ -25,6 +25,7 @@ def page(run: Run) -> str:
             histories.sections(run),
             maps.sections(run),
             machine.sections(run),
+            errors.sections(run),
             trust.sections(run),
             scene.sections(run),
             origin.sections(run),

@@ -10,7 +10,7 @@ from contact_core.quantities import TABLE
 
 from ..store.results import ERROR, half_width
 from .chart import Array, Chart, Line
-from .shown import Unit, time_unit, unit_for
+from .shown import Unit, negligible, time_unit, unit_for
 
 _ALL = slice(None)
 _CAPPED = 999.0  # lambda ratios from here on are at their cap, which says nothing
@@ -96,6 +96,8 @@ def constants(dataset: xr.Dataset, panels: tuple[Panel, ...]) -> Iterator[str]:
             if name not in dataset or _changes(dataset, [name]) or not values(dataset, name)[-1]:
                 continue
             unit = unit_of(dataset, [name], name)
+            if negligible(float(unit.of(values(dataset, name)[-1]))):
+                continue
             who = f" of {label}" if len(panel.quantities) > 1 else ""
             yield f"{panel.title.lower()}{who} = {float(unit.of(values(dataset, name)[-1])):.4g} {unit.name}".rstrip()
 
@@ -134,6 +136,7 @@ def chart(dataset: xr.Dataset, panel: Panel, names: list[str], shaded: tuple[tup
         at,
         from_zero=unit.offset == 0.0,
         downward=panel.downward,
+        most=1.0 if panel.share else None,
     )
 
 

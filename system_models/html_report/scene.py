@@ -10,7 +10,6 @@ from contact_core.scene import Scene
 from contact_core.scene.units import parse
 
 from ..explain import left_out
-from ..machines.assembly import Assembly
 from .markup import Raw, bullets, equation, folded, heading, paragraph, section, source, table, text
 from .opened import Run
 from .shown import unit_for
@@ -39,10 +38,12 @@ class Slot(NamedTuple):
 def sections(run: Run) -> str:
     """Return both sections."""
     if run.machine:
-        return _of_machine(run.machine.assembly)
+        return _of_machine(run)
     if not run.of_contact:
         return ""
-    given = section("scene", "The scene as it was run", _name(run.scene_table), *_tables(run.scene_table))
+    given = section(
+        "scene", "The scene as it was run", _name(run.scene_table), *_tables(run.scene_table), *_assumed(run)
+    )
     return given + modelled(run.scene)
 
 
@@ -133,8 +134,29 @@ def readable(value: object) -> str:
     return f"{float(unit.of(found)):.6g} {unit.name}".rstrip() if number else value
 
 
-def _of_machine(assembly: Assembly) -> str:
+_ASSUMED = {  # kinds of `Assumed`: in words
+    "assumed": "physics",
+    "numerical": "of how it is solved",
+    "off": "switched off",
+}
+
+
+def _assumed(run: Run) -> Iterator[str]:
+    """Yield the values that the scene has left to defaults."""
+    yield heading("Assumed: what the scene does not say")
+    if run.assumed is None:
+        yield paragraph("This result does not say it: an older version has made it.", "quiet")
+    elif not run.assumed:
+        yield paragraph("Nothing: the scene gives every value itself.")
+    else:
+        rows = [[each.key, _ASSUMED.get(each.kind, each.kind), each.value or "–", each.why] for each in run.assumed]
+        yield table(["key", "kind", "value taken", "why"], rows, "laws")
+
+
+def _of_machine(run: Run) -> str:
     """Return both sections of a machine: its parts, and the laws of its contacts' scene."""
+    assert run.machine is not None
+    assembly = run.machine.assembly
     scenes: dict[str, tuple[Scene, list[str]]] = {}
     for name, contact in assembly.contacts.items():
         scenes.setdefault(repr(contact.scene.to_dict()), (contact.scene, []))[1].append(name)
@@ -150,5 +172,6 @@ def _of_machine(assembly: Assembly) -> str:
         "The machine as it was run",
         table(["part", "kind", "what it is"], rows),
         *tables,
+        *_assumed(run),
     )
     return given + modelled(next(iter(scenes.values()))[0])

@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..run.half_widths import digits_of
+
 _ZERO = 273.15  # K
 _DEGREES = "°C"
 _PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"), (1e9, "G"))
@@ -15,6 +17,7 @@ _SLOW = 1e-3  # m/s: smaller speeds take one, too
 _VOLUME = 1e-18  # m3: a cubic micrometre
 _TIMES = ((300.0, 1.0, "s"), (5.0 * 3600.0, 60.0, "min"), (math.inf, 3600.0, "h"))  # up to [s], in s, name
 _MOST_DIGITS = 5  # after the point: longer numbers have an exponent
+_NOTHING = 1e-9  # in the unit that people read
 _OVERFLOW = 2.0  # a prefix serves from this many of its unit on
 _EXPONENTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _RPM = 30.0 / math.pi
@@ -75,16 +78,22 @@ def time_unit(end: float) -> Unit:
     return next(Unit(name, 1.0 / factor) for most, factor, name in _TIMES if end <= most)
 
 
+def negligible(value: float) -> bool:
+    """Return True for a number in the unit people read that is as good as none."""
+    return abs(value) < _NOTHING
+
+
 def stated(value: float, half: float | None = None) -> str:
     """Return a number as text, with the half width of its error where there is one, to its first digits."""
     if not math.isfinite(value):
         return "not known"
+    if negligible(value) and (half is None or negligible(half)):
+        return "0"
     if half is None or half == 0.0:
         return f"{value:.4g}"
     if not math.isfinite(half):
         return f"{value:.3g} ± ?"
-    first = -math.floor(math.log10(half)) + (1 if half < 2.0 * 10.0 ** math.floor(math.log10(half)) else 0)
-    if first > _MOST_DIGITS:
+    if digits_of(half) > _MOST_DIGITS:
         return f"{value:.2g} ± {half:.1g}"
-    digits = max(first, 0)
+    digits = max(digits_of(half), 0)
     return f"{value:.{digits}f} ± {half:.{digits}f}"

@@ -4,11 +4,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..run.half_widths import UNKNOWN, says_nothing
+from ..store.results import ERROR
+from .errors import CAUSES
 from .markup import Raw, paragraph, section, table, text
 from .opened import Run
 from .panels import MAIN, Panel, band, unit_of, values
-from .shown import Unit, stated, time_unit
-from .trust import CAUSES, invalid, marked, raised, why_invalid
+from .shown import Unit, negligible, stated, time_unit
+from .trust import invalid, marked, raised, why_invalid
 
 _LARGE = 0.2  # relative half width from which an end value is called uncertain
 _MOST = 12  # contacts listed
@@ -60,12 +63,24 @@ def _end(run: Run, panel: Panel, contact: str) -> Iterator[tuple[str, float, flo
             yield label, float(unit.of(last)[0]), None if half is None else float(half[-1]), unit
 
 
+def _stated(panel: Panel, value: float, half: float | None) -> str:
+    """Return a value of a panel with its half width, or that it is not known."""
+    if panel.share and half is not None and says_nothing(panel.quantities[0], value, half):
+        return UNKNOWN
+    return stated(value, half)
+
+
+def _unit(value: float, unit: Unit) -> str:
+    """Return the unit behind a value; nothing is nothing in any unit."""
+    return "" if negligible(value) and not unit.offset else unit.name
+
+
 def _cards(run: Run) -> str:
     """Return the end values as cards."""
     cards = []
     for panel in MAIN:
         lines = [
-            f'<p><span class="value">{text(stated(value, half))}</span> {text(unit.name)}'
+            f'<p><span class="value">{text(_stated(panel, value, half))}</span> {text(_unit(value, unit))}'
             + (f' <span class="who">{text(label)}</span>' if len(panel.quantities) > 1 else "")
             + "</p>"
             for label, value, half, unit in _end(run, panel, "")
@@ -89,7 +104,8 @@ def _of_contacts(run: Run) -> str:
         cells: list[object] = [contact]
         for panel in MAIN:
             found = list(_end(run, panel, contact))
-            cells.append(Raw("<br>".join(text(f"{stated(v, h)} {u.name}".rstrip()) for _, v, h, u in found) or "–"))
+            shown = (text(f"{_stated(panel, v, h)} {_unit(v, u)}".rstrip()) for _, v, h, u in found)
+            cells.append(Raw("<br>".join(shown) or "–"))
         rows.append(cells)
     more = f" {len(run.contacts) - len(rows)} more are below." if len(run.contacts) > len(rows) else ""
     caption = f"Contacts at the end, the least lambda ratio first; of tribofilm and wear body 1 over body 2.{more}"
@@ -134,12 +150,25 @@ def _of_errors(run: Run) -> Iterator[tuple[str, str]]:
                 relative = half / abs(value) if half is not None and value and np.isfinite(value) else 0.0
                 if relative > max(worst, _LARGE):
                     where = "" if run.of_contact else f" in contact {contact}"
-                    worst, main = relative, f"{where}{_main_cause(run, name)}"
+                    worst, main = relative, f"{where}{_main_cause(run, contact, name)}"
         if worst and not panel.share:
             yield "warn", f"{panel.title} is uncertain by {worst:.0%}{main}: do not read more into its digits."
+        unknown = [name for name in run.contacts if _is_unknown(run, panel, name)]
+        if unknown:
+            where = "" if run.of_contact else f" in {len(unknown)} of {len(run.contacts)} contacts"
+            yield "bad", f"{panel.title} is not known{where}: its error leaves all open."
 
 
-def _main_cause(run: Run, name: str) -> str:
+def _is_unknown(run: Run, panel: Panel, contact: str) -> bool:
+    """Return True if the half width of a panel's first quantity says nothing at the end."""
+    name, half = panel.quantities[0], f"{run.of(contact, panel.quantities[0])}{ERROR}"
+    if half not in run.dataset.variables or not panel.share:
+        return False
+    value, width = (float(run.dataset.variables[key].values[-1]) for key in (run.of(contact, name), half))
+    return says_nothing(name, value, width)
+
+
+def _main_cause(run: Run, contact: str, name: str) -> str:
     """Return the largest cause of an output's error in words."""
-    parts = run.causes.get(name)
+    parts = run.causes.get(contact, {}).get(name)
     return f", mostly by {CAUSES[max(parts, key=lambda cause: parts[cause])]}" if parts else ""

@@ -1,4 +1,4 @@
-"""What to think of the numbers: errors by cause, flags with their times and remedies, statistics of the solver."""
+"""What to think of the numbers: flags with their times and remedies, statistics of the solver."""
 
 from collections.abc import Iterator
 from itertools import groupby
@@ -7,28 +7,18 @@ import numpy as np
 import xarray as xr
 
 from contact_core.quantities import TABLE
-from contact_core.state import Error, RangeFlag
+from contact_core.state import RangeFlag
 
-from ..machines.coupling_error import ATTRIBUTE as COUPLING
+from ..machines import trust as machine_trust
 from ..run import cosim_report
+from ..run.flags import by_how_much
 from .chart import Chart, Line, figure
-from .markup import Raw, heading, paragraph, printed, section, table, text
+from .errors import named
+from .markup import heading, paragraph, printed, section, table, text
 from .opened import Run
 from .panels import values
 from .shown import stated, time_unit, unit_for
 
-CAUSES = {  # in words, by field of `Error`
-    "time": "steps in time",
-    "sampling": "few instants",
-    "grid": "grid",
-    "iteration": "early stop",
-    "curves": "fitted curves",
-    "inlet": "cut inlet",
-}
-_SHOWN = (
-    "friction_coefficient", "h_c", "lambda_ratio", "contact_load_ratio", "tribofilm_1", "tribofilm_2",
-    "wear_depth_1", "wear_depth_2", "roughness_1", "roughness_2", "contact_area_ratio", "damage_1", "damage_2",
-)  # fmt: skip
 _REMEDY = {  # of a flag; the quantities that show by how much
     RangeFlag.LAMBDA_CAPPED: ("Nothing to do: lambda says nothing here.", ()),
     RangeFlag.TRIBOFILM_TEMPERATURE: (
@@ -51,12 +41,6 @@ _REMEDY = {  # of a flag; the quantities that show by how much
     RangeFlag.WORN_SHAPE: ("Use film.model = 'deterministic'.", ("wear_depth_1", "wear_depth_2")),
     RangeFlag.PITTED: ("Trust the onset more than the growth.", ("micropitted_area_1", "micropitted_area_2")),
 }  # fmt: skip
-_WORDS = {
-    "h_c": "central film thickness",
-    "contact_load_ratio": "load carried by solids",
-    "contact_area_ratio": "contact area",
-}
-_WORST = 8  # errors of the coupling listed
 
 
 def raised(run: Run) -> dict[RangeFlag, list[str]]:
@@ -100,127 +84,8 @@ def spans(times: "np.ndarray[tuple[int], np.dtype[np.float64]]", marked: np.ndar
 
 
 def sections(run: Run) -> str:
-    """Return the sections on errors, on flags, and on the solver."""
-    return _errors(run) + _flags(run) + _solver(run)
-
-
-def _errors(run: Run) -> str:
-    words = paragraph(
-        "A half width is that of a 95 % interval: with the causes named here, the true answer of the model lies within "
-        "it in 19 of 20 cases. Causes count as independent: their squares add up. What the model leaves out is not "
-        "in it; see “What was modelled”."
-    )
-    if run.of_contact:
-        return section("errors", "Errors by cause", words, *_by_cause(run))
-    return section("errors", "Errors by cause", words, *_of_contacts(run), *_of_coupling(run))
-
-
-def _by_cause(run: Run) -> Iterator[str]:
-    """Yield a table of the end's errors by cause, with bars of their shares."""
-    names = [name for name in _SHOWN if name in run.causes and name in run.dataset]
-    if not names:
-        yield paragraph(
-            "This result does not say its errors by cause: an older version has made it, or it had no checkpoint.",
-            "quiet",
-        )
-        return
-    used = [cause for cause in CAUSES if any(run.causes[name].get(cause, 0.0) > 0.0 for name in names)]
-    rows = []
-    for name in names:
-        error = Error(**run.causes[name])
-        value = float(run.dataset.variables[name].values[-1])
-        unit = unit_for(run.dataset.variables[name].attrs["units"], [value])
-        halves = [unit.factor * getattr(error, cause) for cause in used]
-        together = unit.factor * error.together
-        relative = f"{abs(error.together / value):.0%}" if value else "–"
-        rows.append(
-            [
-                _named(name),
-                stated(float(unit.of(value)), together),
-                unit.name or "–",
-                relative,
-                *(f"{half:.2g}" if half else "–" for half in halves),
-                Raw(_bar([(CAUSES[cause], half**2) for cause, half in zip(used, halves, strict=True)])),
-            ]
-        )
-    heads = ["output", "at the end", "unit", "relative", *(CAUSES[cause] for cause in used), "shares of the square"]
-    yield table(heads, rows, "numbers")
-    yield paragraph(_causes_in_words(used), "quiet")
-
-
-_MEANING = {
-    "time": "steps in time: blocks of the evolution that are not infinitely short",
-    "sampling": "few instants: each block is solved at a few instants of passing roughness",
-    "grid": "grid: the distance of its nodes",
-    "iteration": "early stop: solutions are stopped at film.tolerance",
-    "curves": "fitted curves: the regression level's distance from the deterministic level",
-    "inlet": "cut inlet: film.domain ends within the inlet, which leaves the film too thin",
-}
-
-
-def _causes_in_words(used: list[str]) -> str:
-    return f"{'; '.join(_MEANING[cause] for cause in used)}.".capitalize() if used else ""
-
-
-def _bar(parts: list[tuple[str, float]]) -> str:
-    """Return a bar of shares."""
-    total = sum(share for _, share in parts) or 1.0
-    pieces = "".join(
-        f'<span class="part part-{k}" style="width:{100.0 * share / total:.1f}%" '
-        f'title="{text(name)}: {share / total:.0%}">{text(name) if share > 0.3 * total else ""}</span>'
-        for k, (name, share) in enumerate(parts)
-        if share > 0.0
-    )
-    return f'<span class="bar">{pieces}</span>'
-
-
-def _named(name: str) -> str:
-    """Return the name of an output in words."""
-    stem, body = (name[:-2], f", body {name[-1]}") if name[-2:] in ("_1", "_2") else (name, "")
-    return _WORDS.get(stem, stem.replace("_", " ")) + body
-
-
-def _of_contacts(run: Run) -> Iterator[str]:
-    """Yield a table of the errors that the contacts state at the end."""
-    if not run.contacts:
-        return
-    yield heading("At the end, as each contact states it")
-    kinds = {"error_friction": "friction", "error_film": "film thickness", "error_wear": "wear"}
-    rows = []
-    for contact in run.contacts:
-        last = [
-            float(run.dataset.variables[run.of(contact, key)].values[-1])
-            for key in kinds
-            if run.of(contact, key) in run.dataset
-        ]
-        rows.append([contact, *(f"{error:.0%}" for error in last)])
-    yield table(["contact", *kinds.values()], rows, "numbers", "Half widths relative to the value")
-    yield paragraph("Contacts at the regression level state one cause: its fitted curves.", "quiet")
-
-
-def _of_coupling(run: Run) -> Iterator[str]:
-    """Yield the largest errors by the communication steps, if the run was checked with double steps."""
-    found = []
-    for name in map(str, run.dataset.data_vars):
-        error = run.dataset.variables[name].attrs.get(COUPLING)
-        largest = float(np.abs(values(run.dataset, name)).max()) if error is not None else 0.0
-        if error is not None and largest > 0.0:
-            found.append((float(error) / largest, name, float(error), run.dataset.variables[name].attrs["units"]))
-    yield heading("By the coupling of the parts")
-    if not found:
-        yield paragraph(
-            "Not checked: a machine's run without --unchecked simulates once more with double steps, and says so.",
-            "quiet",
-        )
-        return
-    found.sort(reverse=True)
-    middle = float(np.median([share for share, *_ in found]))
-    yield paragraph(
-        f"From a simulation with double steps, relative to the largest value of each output: {middle:.2g} in the "
-        f"middle of {len(found)} outputs. The largest:"
-    )
-    rows = [[name, f"{share:.2%}", f"{error:.3g}", unit] for share, name, error, unit in found[:_WORST]]
-    yield table(["output", "relative", "error", "unit"], rows, "numbers")
+    """Return the sections on flags and on the solver."""
+    return _flags(run) + _solver(run)
 
 
 def _flags(run: Run) -> str:
@@ -260,9 +125,22 @@ def _flag_row(run: Run, flag: RangeFlag, contacts: list[str]) -> list[object]:
     when = "throughout" if up.all() else f"{clock.of(begin):.3g} to {clock.of(end):.3g} {clock.name}"
     when += f", {count} of {len(times)} rows" + (f" in {len(found)} stretches" if len(found) > 1 else "")
     remedy, shown = _REMEDY[flag]
-    much = [each for key in shown for each in _how_much(run, contacts, key, up)]
+    beyond = _beyond(run, flag, contacts)
+    much = [beyond] if beyond else [each for key in shown for each in _how_much(run, contacts, key, up)]
     who = [] if run.of_contact else [", ".join(contacts)]
     return [f"{flag.text[0].upper()}{flag.text[1:]}.", *who, when, "; ".join(much) or "–", remedy]
+
+
+def _beyond(run: Run, flag: RangeFlag, contacts: list[str]) -> str:
+    """Return which quantity is beyond which limit, in the most loaded contact that raises a flag."""
+    if run.scene is not None:
+        return by_how_much(flag, run.scene, run.dataset.isel(time=marked(run, flag, contacts)))
+    if run.machine is None:
+        return ""
+    assembly = run.machine.assembly
+    rows = {name: machine_trust.of_contact(assembly, run.dataset, name) for name in contacts}
+    name, number = machine_trust.beyond(assembly, rows, flag)
+    return f"{name}: {number}" if number and len(run.contacts) > 1 else number
 
 
 def _how_much(run: Run, contacts: list[str], key: str, marked: np.ndarray) -> Iterator[str]:
@@ -275,7 +153,7 @@ def _how_much(run: Run, contacts: list[str], key: str, marked: np.ndarray) -> It
         yield f"{key.removeprefix('error_')} ± {largest:.0%}"
         return
     unit = unit_for(TABLE[key].unit, [largest])
-    yield f"{_named(key)} up to {stated(float(unit.of(largest)))} {unit.name}".rstrip()
+    yield f"{named(key)} up to {stated(float(unit.of(largest)))} {unit.name}".rstrip()
 
 
 def _strip(run: Run, flags: dict[RangeFlag, list[str]]) -> str:

@@ -8,6 +8,8 @@ Each kind is a folder with its wiring, own parts, report and shipped files; `reg
     timeline        the duty of a machine
     assembly        a machine's contacts, parts, connections and schedule; builds the FMUs
     report          costs, levels, invalid rows, stored heat
+    trust           what to trust of a run: lines before it on the most loaded contacts, and after it
+    causes          errors of contacts at the end of a run, by their causes
     resolve         contact states of a finished run, solved again deterministically
     corrected       friction, film and W_c of a run corrected by these states
     coupling_error  the error that the communication steps cause

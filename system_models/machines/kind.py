@@ -34,5 +34,8 @@ class Kind:
     signals: Mapping[str, Quantity]  # of the duty, by name
     needed: tuple[str, ...]  # signals that the duty must give
     design: Callable[[Mapping[str, Any], Timeline], Design]  # from the tables and the duty; raises SceneError
+    foreseen: Callable[[Mapping[str, Part], Mapping[str, float]], dict[str, dict[str, float]]]  # inputs of the contacts
+    # by contact and input, under signals of the duty as they would be once all has settled
+    legend: Mapping[str, str]  # headings of the printed tables, and what they mean
     lines: Callable[[Assembly, xr.Dataset], list[str]]  # the printed report of a run
     pictures: Callable[[Assembly, xr.Dataset, Path], list[Path]]  # written into a folder; overview.png first

@@ -26,9 +26,14 @@ from .system import Port, System
 
 @contextmanager
 def kept(
-    folder: Path, system: System, outputs: Iterable[Port], settings: Mapping[str, Any], resume: bool
+    folder: Path,
+    system: System,
+    outputs: Iterable[Port],
+    settings: Mapping[str, Any],
+    resume: bool,
+    about: Mapping[str, str] | None = None,
 ) -> Iterator[Checkpoint]:
-    """Hold the checkpoint of a simulation, in a folder of its own as long as it runs.
+    """Hold the checkpoint of a simulation, in a folder of its own as long as it runs; `about`: texts for it.
 
     `saved` is the point from which it continues, if there is one and `resume` is set. Raises CouplingError if the
     simulation cannot be stored, and StateError if the folder is in use or holds another simulation.
@@ -40,7 +45,7 @@ def kept(
         raise CouplingError(f"The folder '{folder}' cannot be made: {error.strerror}. Use another.") from None
     with alone(folder):
         run = identity(system, settings)
-        yield Checkpoint.resume(folder, run) if resume else Checkpoint(folder, run)
+        yield Checkpoint.resume(folder, run, about) if resume else Checkpoint(folder, run, about)
 
 
 def check(system: System, outputs: Iterable[Port]) -> None:

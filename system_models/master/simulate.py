@@ -39,6 +39,7 @@ def simulate(
     outputs: Iterable[str] | None = None,
     checkpoint: str | Path | Checkpoint | None = None,
     resume: bool = False,
+    about: Mapping[str, str] | None = None,
     history: Mapping[str, Callable[[float], float]] | None = None,
     progress: Callable[[float], None] | None = None,
     observe: Observer | None = None,
@@ -50,9 +51,10 @@ def simulate(
 
     outputs: the variables to record, by default all outputs. checkpoint: a folder in which the state is kept; with
     `resume` the simulation continues from there, bit for bit. Or a Checkpoint of the caller, who knows what it belongs
-    to: its `saved` point, if any, is continued from. history: the course of coupled outputs before the time 0, f(t) by
-    name, for hold orders above 0. progress is called with the time reached; observe, before a checkpoint, with the time
-    [s] of the first row and of the last one of each step, and with the running FMUs, which it must leave as they are.
+    to: its `saved` point, if any, is continued from. about: texts that a checkpoint keeps for its readers. history: the
+    course of coupled outputs before the time 0, f(t) by name, for hold orders above 0. progress is called with the time
+    reached; observe, before a checkpoint, with the time [s] of the first row and of the last one of each step, and with
+    the running FMUs, which it must leave as they are.
 
     Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", statistics of each step;
     "bond.*", the difference between the powers that the two FMUs of a bond compute. Its attributes count steps,
@@ -71,7 +73,7 @@ def simulate(
         if checkpoint is not None and store is None:
             past = {name: [float(course(time)) for time in settings.past] for name, course in (history or {}).items()}
             run = asdict(settings) | {"outputs": [port.name for port in ports], "history": past}
-            store = exits.enter_context(saving.kept(Path(str(checkpoint)), system, ports, run, resume))
+            store = exits.enter_context(saving.kept(Path(str(checkpoint)), system, ports, run, resume, about))
         check_interrupt = exits.enter_context(deferred())
         coupled = Coupled(system, ports, settings, exits)
         recorder = Recorder(coupled, ports)

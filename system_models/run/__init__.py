@@ -3,10 +3,13 @@
     duty, duty_table              load, speeds and temperature against time: constant, steps, or a CSV
     contact                       a contact's FMU through a duty
     origin                        identity of a contact's run
+    assumed                       values that a scene has left to defaults
     causes                        errors at the end of a contact's run, by their causes
     fields, maps                  maps and profiles of a run at some times: collected, and as variables of its result
     track_picture                 picture of wear tracks and tribofilms
-    trust, flags                  what to trust of a run: lines before and after it; range flags in numbers
+    half_widths                   values with the half widths of their errors as text
+    trust, flags, verdict         what to trust of a run: lines before and after it; range flags in numbers; how well
+                                  its outputs are known
     report                        the printed table and the overview picture of a contact's run
     stribeck, stribeck_report     Stribeck curves at given times of rubbing; their table and picture
     fit, fit_data, fit_model      constants of a scene from measured numbers: the fit, the numbers, the model

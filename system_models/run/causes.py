@@ -24,11 +24,15 @@ def attribute(errors: Mapping[str, Error]) -> dict[str, str]:
     return {ATTRIBUTE: json.dumps(by_cause(errors))} if errors else {}
 
 
-def at_point(scene: Scene, checkpoint: Checkpoint) -> Causes:
-    """Return the errors at the point that a checkpoint has saved; empty if it has none."""
+def at_point(scene: Scene, checkpoint: Checkpoint) -> Mapping[str, Error]:
+    """Return the errors of a contact's outputs at the point that a checkpoint has saved; empty if it has none."""
     if checkpoint.saved is None:
         return {}
     states, _ = unpack(checkpoint.saved.state)
     (serialised,) = states.values()
-    data = contact_state(serialised)
-    return by_cause(uncertainty(scene, ContactState.from_bytes(data, scene))) if data else {}
+    return of_state(scene, contact_state(serialised))
+
+
+def of_state(scene: Scene, data: bytes) -> Mapping[str, Error]:
+    """Return the errors of the outputs of a state, as bytes; empty without any: nothing has been solved."""
+    return uncertainty(scene, ContactState.from_bytes(data, scene)) if data else {}

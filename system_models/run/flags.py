@@ -1,5 +1,6 @@
 """Range flags in numbers: which quantity is beyond which limit, at the worst of the rows that raise the flag."""
 
+import math
 from collections.abc import Callable
 from dataclasses import fields
 
@@ -23,6 +24,10 @@ _IN_WORDS = {  # of the places of the fitted curves
     "slip": "slide-to-roll ratio",
     "pressed": "Hertz pressure / hardness",
 }
+_SMOOTH = {  # places without end: nothing resists the pressure
+    "flattening": "the bodies have no roughness",
+    "below": "no body has microroughness (surface_1.microroughness)",
+}
 _NO_MOST, _NO_LEAST = ("layers",), ("slip", "pressed")  # as in `FittedSharing.covers`
 Told = Callable[[Scene, xr.Dataset], str]
 
@@ -34,11 +39,16 @@ def sentences(scene: Scene, dataset: xr.Dataset) -> list[str]:
     for flag in RangeFlag:
         raised = (flags & flag) > 0
         if raised.any():
-            told = _TOLD.get(flag)
-            number = told(scene, dataset.isel(time=raised)) if told else ""
+            number = by_how_much(flag, scene, dataset.isel(time=raised))
             rows = "all rows" if raised.all() else f"{int(raised.sum())} of {total} rows"
             found.append(f"Range, {rows}: {flag.text}" + (f" ({number})." if number else "."))
     return found
+
+
+def by_how_much(flag: RangeFlag, scene: Scene, rows: xr.Dataset) -> str:
+    """Return which quantity is beyond which limit in rows that raise a flag; empty of a flag that says it itself."""
+    told = _TOLD.get(flag)
+    return told(scene, rows) if told else ""
 
 
 def operating_point(row: xr.Dataset) -> OperatingPoint:
@@ -64,7 +74,7 @@ def _temperature(scene: Scene, rows: xr.Dataset) -> str:
 
 def _inlet(scene: Scene, rows: xr.Dataset) -> str:
     nodes = [_inlet_nodes(Case.at(scene, operating_point(row))) for row in _some(rows)]
-    return f"{min(nodes):.1f} nodes across the inlet"
+    return f"{min(nodes):.1f} nodes across the inlet" if nodes else ""
 
 
 def _inlet_nodes(case: Case) -> float:
@@ -72,7 +82,9 @@ def _inlet_nodes(case: Case) -> float:
 
 
 def _few(scene: Scene, rows: xr.Dataset) -> str:
-    least = min(_some(rows), key=lambda row: float(row["load"]))
+    least = min(_some(rows), key=_load, default=None)
+    if least is None:
+        return ""
     wide = 2.0 * Case.at(scene, operating_point(least)).hertz.a
     return f"{wide / scene.film.spacing:.1f} nodes at {float(least['load']):.3g} N"
 
@@ -90,11 +102,17 @@ def _sliding(scene: Scene, rows: xr.Dataset) -> str:
 
 def _outside(scene: Scene, rows: xr.Dataset) -> str:
     """Return which numbers of the fitted curves are beyond their ranges, of surfaces as new."""
-    for row in _some(rows):
+    scene = scene.at_level("regression")
+    some = sorted(_some(rows), key=_load, reverse=True)
+    if not some:
+        return "at rest"
+    for row in some:
         case = Case.at(scene, operating_point(row))
         if case.op.slides and 0.0 in case.speeds:
             return "a body stands still; they are of two that move"
         for name, here in _fit(case)._asdict().items():
+            if name in _SMOOTH and math.isinf(here):
+                return f"{_SMOOTH[name]}: fitted to bodies that have it"
             low, high = regression_film(scene).sharing.FITTED[name]
             if here > high and name not in _NO_MOST:
                 return f"{_IN_WORDS[name]} {here:.3g}: fitted to {high:.3g} at most"
@@ -125,13 +143,17 @@ def _pitted(scene: Scene, rows: xr.Dataset) -> str:
 
 
 def _some(rows: xr.Dataset) -> list[xr.Dataset]:
-    """Return rows under load that stand for all: of least and most load, slowest and fastest, last."""
+    """Return rows under load and in motion that stand for all: of least and most load, slowest and fastest, last."""
     loads, speed = rows["load"].values, np.abs(rows["speed_1"].values + rows["speed_2"].values)
-    loaded = np.flatnonzero(loads > 0.0)
+    loaded = np.flatnonzero((loads > 0.0) & (speed > 0.0))
     if not loaded.size:
         return []
     chosen = {int(loaded[f(values[loaded])]) for f in (np.argmin, np.argmax) for values in (loads, speed)}
     return [rows.isel(time=k) for k in sorted({*chosen, int(loaded[-1])})]
+
+
+def _load(row: xr.Dataset) -> float:
+    return float(row["load"])
 
 
 _TOLD: dict[RangeFlag, Told] = {

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from ..store.results import half_width
+from .half_widths import cell
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -104,18 +105,7 @@ def _stated(dataset: xr.Dataset, name: str, rows: list[int], factor: float, digi
     if half is None:
         return [f"{value:.{digits}f}" for value in values]
     halves = factor * half[rows]
-    return [with_error(value, half, digits) for value, half in zip(values, halves, strict=True)]
-
-
-def with_error(value: float, half: float, digits: int) -> str:
-    """Return a value and the half width of its error as text, "0.106 +- 0.004", to the error's first digit.
-
-    There are at most so many digits after the point.
-    """
-    if not 0.0 < half < math.inf:
-        return f"{value:.{digits}f}" + (" +- ?" if half else "")
-    first = min(max(-math.floor(math.log10(half)), 0), digits)
-    return f"{value:.{first}f} +- {half:.{first}f}"
+    return [cell(name, value, half, digits) for value, half in zip(values, halves, strict=True)]
 
 
 def _apart(minutes: np.ndarray) -> list[str]:

@@ -16,8 +16,7 @@ from contact_core.scene import Case, OperatingPoint, Scene
 from contact_core.scene.hertz_grid import POINTS
 from contact_core.state import Error
 
-from ..store.results import half_width
-from . import flags
+from . import flags, verdict
 from .duty import Duty
 
 _MOST_POINTS = 200  # of a duty that are looked at
@@ -26,8 +25,6 @@ _FEW = 8.0  # nodes across the contact, below which RangeFlag.FEW_NODES is raise
 _WIDE, _WAVES = 5.0, 8.0  # half widths of the contact and correlation lengths, that a domain should have
 _MISSING, _LEFT = 0.05, 0.02  # of the film: missing from which on a line says so, and left by its way out
 _ROUND = 0.01  # relative difference of half widths, up to which one is told
-_POOR, _UNKNOWN = 0.35, 1.0  # relative half widths from which on a quantity is known roughly, and hardly at all
-_LEAST = 1e-3  # half width of a share that is told
 _SHORT, _LONG = 60, 120  # columns of text
 
 _LEGEND = {  # heading of the table: its meaning
@@ -36,23 +33,6 @@ _LEGEND = {  # heading of the table: its meaning
     "tribofilm, wear": "means over the track of body 1, 2",
     "A_c, W_c": "the solids' share of Hertz's area, of the load",
 }
-_NAMES = {  # of an output with a stated error: in words
-    "friction_coefficient": "friction",
-    "h_c": "film",
-    "contact_load_ratio": "W_c",
-    "tribofilm": "tribofilm",
-    "wear_depth": "wear",
-    "damage": "damage",
-}
-_ABSOLUTE = {"contact_load_ratio"}
-_CAUSES = {
-    "time": "the time steps",
-    "sampling": "the few instants solved",
-    "grid": "the grid",
-    "iteration": "solutions that stop early",
-    "curves": "the fitted curves",
-    "inlet": "a domain that cuts the inlet off",
-}
 
 
 def before(scene: Scene, duty: Duty) -> list[str]:
@@ -60,11 +40,12 @@ def before(scene: Scene, duty: Duty) -> list[str]:
     cases = [Case.bind(scene, op) for op in _some(duty.points) if op.load > 0.0]
     if not cases:
         return ["Contact: no load, the bodies just touch."]
-    return [
-        line
-        for text in (_contact(cases), _motion(cases), _film(cases), *_grid(scene, cases), *_inlet(scene, cases))
-        for line in wrapped(text)
-    ]
+    return wrapped(*described(cases), *_grid(scene, cases), *_inlet(scene, cases))
+
+
+def described(cases: Sequence[Case]) -> list[str]:
+    """Return sentences on contacts under load: pressure and size, motion, film of smooth bodies and regime."""
+    return [_contact(cases), _motion(cases), _film(cases)]
 
 
 def _some(points: Sequence[OperatingPoint]) -> list[OperatingPoint]:
@@ -85,18 +66,18 @@ def _speed(op: OperatingPoint) -> float:
 
 def _contact(cases: Sequence[Case]) -> str:
     shapes = [case.hertz for case in cases]
-    size = f"half width {_span((1e6 * h.a for h in shapes), 'um')}"
+    size = f"half width {span((1e6 * h.a for h in shapes), 'um')}"
     if not cases[0].shape.periodic and any(abs(h.b / h.a - 1.0) > _ROUND for h in shapes):
-        along, across = (_span(1e6 * getattr(h, axis) for h in shapes) for axis in "ab")
+        along, across = (span(1e6 * getattr(h, axis) for h in shapes) for axis in "ab")
         size = f"half widths {along} um along, {across} um across"
-    largest, mean = (_span(1e-9 * getattr(h, name) for h in shapes) for name in ("pressure_max", "pressure_mean"))
+    largest, mean = (span(1e-9 * getattr(h, name) for h in shapes) for name in ("pressure_max", "pressure_mean"))
     return f"Contact: Hertz pressure {largest} GPa (mean {mean} GPa), {size}."
 
 
 def _motion(cases: Sequence[Case]) -> str:
     ratios = [100.0 * case.op.sliding_speed / case.op.entrainment_speed for case in cases if case.entrained]
-    slides = f"slide-to-roll ratio {_span(ratios, '%')}" if ratios else "which brings no oil in"
-    return f"Motion: entrainment speed {_span((case.op.entrainment_speed for case in cases), 'm/s')}, {slides}."
+    slides = f"slide-to-roll ratio {span(ratios, '%')}" if ratios else "which brings no oil in"
+    return f"Motion: entrainment speed {span((case.op.entrainment_speed for case in cases), 'm/s')}, {slides}."
 
 
 def _film(cases: Sequence[Case]) -> str:
@@ -104,17 +85,17 @@ def _film(cases: Sequence[Case]) -> str:
     rough = math.hypot(*(side.surface.rms for side in cases[0].sides))
     if not any(films):
         return "Film: none by formula, as nothing brings oil in: dry contact."
-    text = f"Film: {_span((1e9 * film for film in films), 'nm')} by formula for smooth bodies"
+    text = f"Film: {span((1e9 * film for film in films), 'nm')} by formula for smooth bodies"
     if rough == 0.0:
         return f"{text}, as these are: full film."
     ratios = [film / rough for film in films]
     return (
-        f"{text}; roughness {1e9 * rough:.3g} nm; so lambda of handbooks is {_span(ratios)}: by its limits "
-        f"{_regime(min(ratios), max(ratios))}."
+        f"{text}; roughness {1e9 * rough:.3g} nm; so lambda of handbooks is {span(ratios)}: by its limits "
+        f"{regime(min(ratios), max(ratios))}."
     )
 
 
-def _regime(least: float, most: float) -> str:
+def regime(least: float, most: float) -> str:
     """Return the lubrication regime in a word, or from one to another."""
     first, last = (_word(ratio) for ratio in (least, most))
     return first if first == last else f"{first} to {last}"
@@ -181,70 +162,7 @@ def after(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> lis
 
     `errors` are those of the last state by `contact_core.uncertainty`; empty if that is not known.
     """
-    return wrapped(*flags.sentences(scene, dataset), _verdict(scene, dataset, errors))
-
-
-def _verdict(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> str:
-    """Return what is known how well at the end, and what would make it surer."""
-    valid, total = dataset["valid"].values, dataset.sizes["time"]
-    if not valid.all():
-        first = float(dataset["time"].values[~valid][0])
-        return (
-            f"Verdict: {int((~valid).sum())} of {total} rows are INVALID, the first at {first:g} s; their outputs "
-            "stand as they were before."
-        )
-    known: dict[str, list[str]] = {}
-    for word, half, error, absolute in _stated(dataset, errors):
-        known.setdefault(_cause(error), []).append(_known(word, half, absolute))
-    if not known:
-        return f"Verdict: all {total} rows were computed; no errors are stated."
-    parts = [f"{', '.join(words)}{cause and f' ({cause})'}" for cause, words in known.items()]
-    return f"Verdict: known at the end: {'; '.join(parts)}. {_way_out(scene)}".rstrip()
-
-
-def _stated(dataset: xr.Dataset, errors: Mapping[str, Error]) -> list[tuple[str, float, Error | None, bool]]:
-    """Return words, half width, its causes and True if absolute; of the body whose is larger."""
-    last, found = dataset.isel(time=-1), []
-    for name, word in _NAMES.items():
-        outputs = [each for each in (name, f"{name}_1", f"{name}_2") if f"{each}_error" in last.coords]
-        halves = {each: half for each in outputs if (half := _half(last, each, name in _ABSOLUTE)) is not None}
-        if halves:
-            worst = max(halves, key=halves.__getitem__)
-            found.append((word, halves[worst], errors.get(worst), name in _ABSOLUTE))
-    return found
-
-
-def _half(last: xr.Dataset, name: str, absolute: bool) -> float | None:
-    """Return the half width of an output's error, relative or absolute; None of an output that is zero."""
-    half, value = float(half_width(last, name)), abs(float(last[name]))  # type: ignore[arg-type]
-    if absolute:
-        return half
-    return half / value if value > 0.0 else None
-
-
-def _known(word: str, half: float, absolute: bool) -> str:
-    """Return how well an output is known."""
-    if absolute:
-        return f"{word} to +- {half:.2g}" if half == 0.0 or half >= _LEAST else f"{word} to less than +- {_LEAST:g}"
-    if not math.isfinite(half):
-        return f"{word} not at all"
-    percent = f"{100.0 * half:.2g} %" if half < _UNKNOWN else f"a factor of {1.0 + half:.2g}"
-    return f"{word} {'only ' if half > _POOR else ''}to {percent}"
-
-
-def _cause(error: Error | None) -> str:
-    """Return the cause of most of an error in words; empty if it is not known."""
-    if error is None or error.together == 0.0:
-        return ""
-    name, half = max(error._asdict().items(), key=lambda item: item[1])
-    others = math.sqrt(max(error.together**2 - half**2, 0.0))
-    return _CAUSES[name] if half > 2.0 * others else f"mostly {_CAUSES[name]}"
-
-
-def _way_out(scene: Scene) -> str:
-    if scene.film.name in UNSOLVED:
-        return "Surer: --set film.model=auto or deterministic."
-    return "" if scene.control.accuracy else "Surer: --accuracy 5%."
+    return wrapped(*flags.sentences(scene, dataset), verdict.sentence(scene, dataset, errors))
 
 
 def width() -> int:
@@ -258,7 +176,7 @@ def wrapped(*texts: str) -> list[str]:
     return [line for text in texts for line in textwrap.wrap(text, width(), **how)]
 
 
-def _span(values: Iterable[float], unit: str = "") -> str:
+def span(values: Iterable[float], unit: str = "") -> str:
     """Return a value, or the range of several, as text with a unit."""
     found = np.array(list(values), dtype=float)
     ends = list(dict.fromkeys(f"{end:.3g}" for end in (found.min(), found.max())))

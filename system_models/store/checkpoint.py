@@ -102,15 +102,17 @@ class _Grown:
 class Checkpoint:
     """Stores the point that a run has reached; `saved` is the point from which it continues.
 
+    `run` is all that decides the result; `about` are texts on it that do not, for those who look at a checkpoint.
     `kept` are records of the caller, of any bytes, which it only adds to: the next `save` stores those that are new.
     """
 
-    def __init__(self, folder: Path, run: Mapping[str, Any]) -> None:
+    def __init__(self, folder: Path, run: Mapping[str, Any], about: Mapping[str, str] | None = None) -> None:
         self.file = folder / "checkpoint.tribofmu"
         self._rows = _Grown(folder / "checkpoint.rows", "rows")
         self._records = _Grown(folder / "checkpoint.kept", "records")
         self._new = folder / "checkpoint.new"
         self._run = run
+        self.about = dict(about or {})
         self._next = -math.inf
         self._writable = True
         self.count = 0  # rows stored so far
@@ -119,12 +121,12 @@ class Checkpoint:
         self.saved: Saved | None = None
 
     @staticmethod
-    def resume(folder: Path, run: Mapping[str, Any]) -> "Checkpoint":
+    def resume(folder: Path, run: Mapping[str, Any], about: Mapping[str, str] | None = None) -> "Checkpoint":
         """Return the checkpoint of `folder`, with `saved` if there is one.
 
         Raises StateError if it is damaged or belongs to another run than `run`.
         """
-        checkpoint = Checkpoint(folder, run)
+        checkpoint = Checkpoint(folder, run, about)
         checkpoint._load()
         return checkpoint
 
@@ -140,6 +142,7 @@ class Checkpoint:
             return None
         header, state = checkpoint._parsed(data)
         checkpoint._take(header, state)
+        checkpoint.about = header.get("about", {})
         return checkpoint, header["run"]
 
     def due(self) -> bool:
@@ -178,6 +181,7 @@ class Checkpoint:
         size, checksum = self._rows.written(rows.tobytes())
         header: dict[str, Any] = {
             "run": self._run,
+            "about": self.about,
             "time": time,
             "columns": [[name, rows.dtype[name].str] for name in rows.dtype.names or ()],
             "size": size,

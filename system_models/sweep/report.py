@@ -2,17 +2,23 @@
 
 import itertools
 import textwrap
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
+from contact_core.scene import Scene
+from contact_core.state import RangeFlag
+
 from ..run.cosim_report import aligned
-from ..run.report import COLUMNS, with_error
+from ..run.flags import by_how_much
+from ..run.half_widths import SHARES, UNKNOWN, cell, says_nothing, with_error
+from ..run.report import COLUMNS
 from ..store.results import ERROR
 from .ensemble import averaged, patches_of
-from .plan import Plan
+from .plan import Plan, Point
 from .points import ends
 from .sensitivity import Indices
 
@@ -28,9 +34,13 @@ _BLUE = "#0072B2"  # of Okabe and Ito
 
 
 def shown(dataset: xr.Dataset) -> list[tuple[str, str, str, float, int]]:
-    """Return the columns whose values are not all zero."""
-    last = ends(dataset)
-    return [column for column in COLUMNS if column[2] in OUTPUTS and np.nan_to_num(last[column[2]].values).any()]
+    """Return the columns whose values are not all zero, or not known."""
+    last, open_ = ends(dataset), _unknown(dataset)
+    return [
+        column
+        for column in COLUMNS
+        if column[2] in OUTPUTS and (np.nan_to_num(last[column[2]].values).any() or column[0] in open_)
+    ]
 
 
 def table(plan: Plan, dataset: xr.Dataset) -> str:
@@ -47,7 +57,7 @@ def table(plan: Plan, dataset: xr.Dataset) -> str:
             factor * last.coords[f"{name}{ERROR}"].values.ravel() if f"{name}{ERROR}" in last.coords else 0 * values
         )
         cells = [
-            "refused" if reason else with_error(value, half, digits)
+            "refused" if reason else cell(name, value, half, digits)
             for value, half, reason in zip(values, halves, flat, strict=True)
         ]
         columns.append([f"{heading} [{unit}]" if unit else heading, *cells])
@@ -59,8 +69,8 @@ def _spread(last: xr.Dataset, dataset: xr.Dataset) -> str:
     for heading, unit, name, factor, digits in shown(dataset):
         values = factor * last[name].values[np.isfinite(last[name].values)]
         cells = [f"{value:.{digits}f}" for value in np.quantile(values, (0.0, 0.025, 0.5, 0.975, 1.0))]
-        for column, cell in zip(columns, [f"{heading} [{unit}]" if unit else heading, *cells], strict=True):
-            column.append(cell)
+        for column, text in zip(columns, [f"{heading} [{unit}]" if unit else heading, *cells], strict=True):
+            column.append(text)
     return _aligned(columns)
 
 
@@ -68,32 +78,71 @@ def _aligned(columns: list[list[str]]) -> str:
     return "\n".join(aligned([list(row) for row in zip(*columns, strict=True)], 0))
 
 
-def lines(plan: Plan, dataset: xr.Dataset, found: list[Indices]) -> list[str]:
-    """Return sentences on which key matters, and on points that are refused or invalid."""
+def lines(plan: Plan, dataset: xr.Dataset, found: list[Indices], scene_of: Callable[[Point], Scene]) -> list[str]:
+    """Return sentences on which key matters, on flags, and on points that are refused, invalid or not known.
+
+    `scene_of` returns the scene of a point.
+    """
     said = []
     if found:
         said.append("Share of an output's variance that is due to a key (Sobol indices, 95 %): alone; with others.")
         columns = [["output"], ["key"], ["alone"], ["with others"]]
         for each in found:
             texts = [f"{low:.2f} to {high:.2f}" for _, low, high in (each.first, each.total)]
-            for column, cell in zip(columns, [each.output, each.key, *texts], strict=True):
-                column.append(cell)
+            for column, text in zip(columns, [each.output, each.key, *texts], strict=True):
+                column.append(text)
         said.append(_aligned(columns))
     if patches_of(plan):
         said += _means(plan, dataset)
-    said += _known(dataset)
+    said += [*_known(dataset), *_flags(plan, dataset, scene_of)]
     reasons = [reason for reason in dataset["refused"].values.ravel() if reason]
     if reasons:
         said.append(f"Refused: {len(reasons)} of {dataset['refused'].size} points. The first: {reasons[0]}")
-    valid = dataset["valid"].values
-    runs = valid.reshape(dataset["refused"].size, -1).all(axis=1)
-    bad = int(np.sum(~runs)) - len(reasons)
-    said.append(
-        f"Validity: all rows of all {runs.size - len(reasons)} runs are valid."
-        if not bad
-        else f"Validity: {bad} of {runs.size - len(reasons)} runs have invalid rows."
-    )
-    return said
+    return [*said, *_computed(dataset, len(reasons))]
+
+
+def _flags(plan: Plan, dataset: xr.Dataset, scene_of: Callable[[Point], Scene]) -> Iterator[str]:
+    """Yield a sentence for each flag that some run raises, with the quantity and by how much it is beyond in one."""
+    points = list(plan.points())
+    raised = np.nan_to_num(dataset["range_flags"].values).astype(int).reshape(len(points), -1)
+    refused = dataset["refused"].values.ravel() != ""
+    for flag in RangeFlag:
+        up = (raised & flag) > 0
+        if not up.any():
+            continue
+        worst = int(up.sum(axis=1).argmax())
+        number = by_how_much(flag, scene_of(points[worst]), _run(dataset, worst).isel(time=up[worst]))
+        where = ", ".join(f"{key}={value}" for key, value in points[worst].settings.items())
+        told = f"{number}; {where}" if number else f"such as {where}"
+        yield f"Range, {int(up.any(axis=1).sum())} of {int((~refused).sum())} runs: {flag.text} ({told})."
+
+
+def _run(dataset: xr.Dataset, number: int) -> xr.Dataset:
+    """Return a run of a sweep along time; one that is kept at its end has one row."""
+    places = [name for name in dataset["refused"].dims]
+    flat = dataset.stack(run=places).isel(run=number) if places else dataset
+    return flat if "time" in flat.dims else flat.expand_dims("time")
+
+
+def _computed(dataset: xr.Dataset, refused: int) -> list[str]:
+    """Return a sentence on rows that could not be computed, or else one on what is not known though they could."""
+    rows = dataset["valid"].values.reshape(dataset["refused"].size, -1).all(axis=1)
+    runs = rows.size - refused
+    bad = int(np.sum(~rows)) - refused
+    if bad:
+        return [f"Verdict: {bad} of {runs} runs have INVALID rows: their outputs stand there as they were before."]
+    open_ = [f" {heading} is {UNKNOWN} in {count} of them." for heading, count in _unknown(dataset).items()]
+    return [f"Verdict: all rows of all {runs} runs were computed.{''.join(open_)}"]
+
+
+def _unknown(dataset: xr.Dataset) -> dict[str, int]:
+    """Return by the heading of an output in how many runs its half width at the end says nothing."""
+    last, found = ends(dataset), {}
+    for heading, _, name, _, _ in COLUMNS:
+        if name in OUTPUTS and f"{name}{ERROR}" in last.coords:
+            pairs = zip(last[name].values.ravel(), last.coords[f"{name}{ERROR}"].values.ravel(), strict=True)
+            found[heading] = sum(says_nothing(name, value, half) for value, half in pairs if np.isfinite(value))
+    return {heading: count for heading, count in found.items() if count}
 
 
 def _means(plan: Plan, dataset: xr.Dataset) -> list[str]:
@@ -126,8 +175,14 @@ def _known(dataset: xr.Dataset) -> list[str]:
     for heading, _, name, _, _ in shown(dataset):
         if f"{name}{ERROR}" in last.coords:
             values, halves = np.abs(last[name].values).ravel(), last.coords[f"{name}{ERROR}"].values.ravel()
-            known = np.isfinite(values) & (values > 0.0)
-            if known.any():
+            pairs = zip(values, halves, strict=True)
+            told = np.array([not says_nothing(name, value, half) for value, half in pairs])
+            known = np.isfinite(values) & told & ((values > 0.0) | (name in SHARES))
+            if not known.any():
+                continue
+            if name in SHARES:
+                parts.append(f"{heading} +- {float(np.median(halves[known])):.2g}")
+            else:
                 parts.append(f"{heading} {100.0 * float(np.median(halves[known] / values[known])):.0f} %")
     return [f"A run alone is known to, at its end (median): {', '.join(parts)}."] if parts else []
 

@@ -5,7 +5,6 @@ import math
 import shutil
 import subprocess
 from dataclasses import replace
-from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from comparison import approx
+from parsed_page import COARSE, Parsed, self_contained
 
 from contact_core.state import RangeFlag
 from system_models.cli.main import main
@@ -23,55 +23,14 @@ from system_models.html_report.maps import decoded, encoded
 from system_models.html_report.opened import Run, open_run
 from system_models.html_report.page import page
 from system_models.html_report.shown import stated, unit_for
+from system_models.run.assumed import ATTRIBUTE as ASSUMED
+from system_models.run.assumed import stored as stored_values
 from system_models.run.causes import ATTRIBUTE
 from system_models.store.checkpoint import Checkpoint
 
-COARSE = [
-    *("film.points=33", "operation.interval=30s"),
-    *(f"surface_{body}.correlation_length=16um" for body in (1, 2)),
-]
 RUN = ["run", "mtm_zddp", "--set", *COARSE, "--hours", "0.025", "--fields", "3"]
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 LARGEST = 3e6  # bytes
-
-
-class Parsed(HTMLParser):
-    """What a page loads, its sections, links, scripts of data, and text."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.loaded: list[str] = []
-        self.ids: list[str] = []
-        self.links: list[str] = []
-        self.data: dict[str, Any] = {}
-        self.open: list[str] = []
-        self.text = self.own = ""
-        self._script = ""
-        self.feed(text)
-        self.close()
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        given = {name: value or "" for name, value in attrs}
-        self.loaded += [given[key] for key in ("src", "data", "poster", "srcset") if key in given]
-        self.loaded += [given["href"]] if tag == "link" else []
-        self.links += [given["href"]] if tag == "a" else []
-        self.ids += [given["id"]] if "id" in given else []
-        self._script = given.get("id", "") if given.get("type") == "application/json" else ""
-        if tag not in ("meta", "link", "img", "br", "input"):
-            self.open.append(tag)
-
-    def handle_endtag(self, tag: str) -> None:
-        assert self.open and self.open[-1] == tag, f"</{tag}> closes {self.open[-3:]}"
-        self.open.pop()
-        self._script = ""
-
-    def handle_data(self, data: str) -> None:
-        if self._script:
-            self.data[self._script] = json.loads(data)
-        elif self.open and self.open[-1] in ("script", "style"):
-            self.own += data
-        else:
-            self.text += data
 
 
 @pytest.fixture(scope="module")
@@ -96,14 +55,6 @@ def opened(folder: Path) -> Run:
 @pytest.fixture(scope="module")
 def parsed(opened: Run) -> Parsed:
     return Parsed(page(opened))
-
-
-def self_contained(found: Parsed) -> bool:
-    """Return True if a page loads only what is in it, and its links within it lead somewhere."""
-    inside = all(each.startswith("data:") for each in found.loaded)
-    foreign = [word for word in ("url(", "@import", "fetch(", "XMLHttpRequest", "import(") if word in found.own]
-    dead = [link for link in found.links if link.startswith("#") and link[1:] not in found.ids]
-    return inside and not foreign and not dead and not found.open and len({*found.ids}) == len(found.ids)
 
 
 def test_a_command_writes_a_page_that_needs_no_other_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -170,7 +121,7 @@ def test_codes_keep_missing_values() -> None:
 
 def test_causes_add_up_to_the_stated_error(result: xr.Dataset, opened: Run, parsed: Parsed) -> None:
     causes = json.loads(result.attrs[ATTRIBUTE])
-    assert causes == opened.causes
+    assert causes == opened.causes[""]
     for name in ("h_c", "friction_coefficient", "contact_load_ratio", "tribofilm_1"):
         assert math.hypot(*causes[name].values()) == approx(float(result[f"{name}_error"].values[-1]), rel=1e-9)
         assert causes[name]["grid"] > 0.0
@@ -253,7 +204,7 @@ def test_an_interrupted_run_is_shown_as_far_as_it_went(
     assert "at 60 s of 90 s" in found.text
     line = found.data["points-history-0-1"]["lines"][0]
     assert line["y"] == approx(1e9 * run.dataset["h_c"].values, rel=1e-4)
-    assert run.causes["h_c"]["grid"] > 0.0
+    assert run.causes[""]["h_c"]["grid"] > 0.0
     assert main(["report", str(tmp_path)]) == 0
     capsys.readouterr()
 
@@ -267,23 +218,30 @@ def test_a_level_without_maps_says_so(tmp_path: Path) -> None:
     assert self_contained(found)
 
 
-def test_a_machine_is_shown_with_its_report_its_parts_and_its_contact(tmp_path: Path) -> None:
-    duty = tmp_path / "short.csv"
-    duty.write_text("time [s],entrainment_speed [m/s],slide_roll_ratio [1]\n0,0.1,0.05\n2,0.1,0.05\n")
-    settings = ["--set", "contact.film.model=regression"]
-    out = tmp_path / "rig"
-    assert main(["run", "mtm_rig", "--duty", str(duty), *settings, "--unchecked", "--out", str(out)]) == 0
+def test_assumed_values_are_told_where_the_result_has_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "own"]) == 0
+    scene = tmp_path / "own.toml"
+    out = tmp_path / "run"
+    quick = ["--set", "film.model=regression", "operation.duration=2 min"]
+    assert main(["run", str(scene), *quick, "--out", str(out)]) == 0
     run = open_run(out)
-    assert run.machine is not None
-    assert run.contacts == ("contact",)
-    found = Parsed(page(run))
-    assert self_contained(found)
-    assert all(
-        line in found.text for line in run.machine.kind.lines(run.machine.assembly, run.dataset) if len(line) < 80
-    )
-    assert any(each.startswith("data:image/png") for each in found.loaded)
-    friction = found.data["points-contact-0-0"]["lines"][0]
-    assert friction["y"][-1] == approx(float(run.dataset["contact.friction_coefficient"].values[-1]), rel=1e-4)
+    told = Parsed(page(run)).text.split("what the scene does not say")[1]
+    assert "surface_1.correlation_length" in told and "8 um as in the shipped scenes" in told
+    attributes = {key: value for key, value in run.dataset.attrs.items() if key != ASSUMED}
+    bare = run.dataset.copy()
+    bare.attrs = attributes
+    older = replace(run, dataset=bare, assumed=stored_values(attributes))
+    assert "This result does not say it: an older version has made it." in Parsed(page(older)).text
+
+
+def test_a_share_that_may_be_anything_is_not_called_known(opened: Run) -> None:
+    changed = opened.dataset.copy(deep=True)
+    changed["contact_load_ratio"].values[:], changed["contact_load_ratio_error"].values[:] = 1e-30, 1.0
+    text = Parsed(page(replace(opened, dataset=changed))).text
+    assert "Load carried by solids is not known: its error leaves all open." in text
+    assert "unknown" in text
+    assert "00000%" not in text
 
 
 def test_a_folder_without_results_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -374,6 +332,7 @@ def test_a_difference_of_temperatures_stays_in_kelvin() -> None:
         (5.2, 0.14, "5.20 ± 0.14"),
         (1.0, math.inf, "1 ± ?"),
         (1.7e-7, 5e-8, "1.7e-07 ± 5e-08"),
+        (3.9e-208, 4e-16, "0"),
     ],
 )
 def test_values_are_stated_to_the_digits_of_their_error(value: float, half: float, text: str) -> None:

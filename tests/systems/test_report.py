@@ -8,6 +8,7 @@ from comparison import approx
 
 from contact_core.quantities import STATED, TABLE
 from system_models.run import report
+from system_models.run.half_widths import with_error
 from system_models.store.results import to_dataset, with_half_widths
 
 
@@ -74,13 +75,27 @@ def test_a_value_is_printed_with_the_half_width_of_its_error_to_the_first_digit_
     ("value", "half", "text"),
     [
         (0.10637, 0.0043, "0.106 +- 0.004"),
+        (0.0298, 0.124, "0.03 +- 0.12"),  # two digits of a half width that begins with 1
+        (155.2, 14.4, "155 +- 14"),
+        (20.31, 1.26, "20.3 +- 1.3"),
+        (0.10637, 1e-6, "0.1064 +- <0.0001"),
         (52.31, 6.2, "52 +- 6"),
         (0.5, 0.0, "0.5000"),
         (1.0, math.inf, "1.0000 +- ?"),
     ],
 )
 def test_digits_of_a_value_follow_its_error(value: float, half: float, text: str) -> None:
-    assert report.with_error(value, half, 4) == text
+    assert with_error(value, half, 4) == text
+
+
+def test_a_share_that_may_be_anything_is_unknown(long_run: xr.Dataset) -> None:
+    columns = {str(name): long_run[name].values for name in long_run.data_vars}
+    units, texts = (
+        {str(name): long_run[name].attrs[key] for name in long_run.data_vars} for key in ("units", "long_name")
+    )
+    for share, half, text in ((0.0, 1.0, "unknown"), (0.4, 0.7, "unknown"), (0.4, 0.5, "0.4 +- 0.5")):
+        changed = columns | {"contact_load_ratio": np.full(121, share), "error_load_ratio": np.full(121, half)}
+        assert text in report.table(to_dataset(long_run["time"].values, changed, units, texts)).splitlines()[-1]
 
 
 def test_half_widths_are_coordinates_that_the_outputs_name(long_run: xr.Dataset) -> None:

@@ -224,6 +224,28 @@ def test_after_ctrl_c_the_command_says_how_to_go_on_and_does(
         assert (folder / "result.nc").read_bytes() == (tmp_path / "whole" / "result.nc").read_bytes()
 
 
+def test_a_run_that_continues_from_its_end_says_the_same_of_its_errors(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, no_picture: None
+) -> None:
+    settings = ["--set", "film.model=regression", "operation.duration=2 min"]
+    command = ["run", "mtm_zddp", *settings, "--resume", "--out", str(tmp_path / "run")]
+    assert main(command) == 0
+    whole = capsys.readouterr().out
+    assert "(the fitted curves)" in whole.split("Verdict")[1]
+    shutil.rmtree(tmp_path / "run")
+
+    def stopped(*arguments: Any) -> Any:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr("system_models.cli.contact._report", stopped)  # all rows are there, the result is not
+        assert main(command) == 130
+    capsys.readouterr()
+    assert main(command) == 0
+    again = capsys.readouterr().out
+    assert again == whole[whole.index("time") :], "word for word, but for what is told before a run"
+
+
 def test_a_failure_says_how_to_go_on(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
 ) -> None:

@@ -121,6 +121,22 @@ def test_a_refused_point_is_named_and_leaves_the_others(tmp_path: Path, capsys: 
         assert not found["valid"].values[1].any()
 
 
+def test_a_run_that_knows_nothing_of_an_output_is_not_called_valid(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bare = [f"surface_{i}.microroughness.rms=0 nm" for i in (1, 2)]
+    fast = ["operation.speed_1=1.1 m/s", "operation.speed_2=0.9 m/s", "tribofilm.model=none"]
+    vary = ["--vary", "operation.load=20 N,60 N", "--out", str(tmp_path)]
+    assert main(["sweep", "mtm_zddp", *vary, *QUICK, *bare, *fast]) == 0
+    out = capsys.readouterr().out
+    assert "valid" not in out
+    assert "all rows of all 2 runs were computed. W_c is unknown in 2 of them." in out
+    assert "no body has microroughness" in out and "Range, 2 of 2 runs: outside the points" in out
+    assert all(line.rstrip().endswith("unknown") for line in out.splitlines()[2:4])
+    (known,) = (line for line in out.splitlines() if line.startswith("A run alone"))
+    assert "W_c" not in known
+
+
 def test_runs_of_unlike_length_are_kept_at_their_end(tmp_path: Path) -> None:
     plan = plan_of(["operation.duration=1 min,2 min"], None, "lhs")
     task = Task("mtm_zddp", (("film.model", "regression"),), Path(), tmp_path)

@@ -126,6 +126,26 @@ def test_a_share_of_solids_is_not_told_to_digits_that_mean_nothing() -> None:
     assert "W_c to less than +- 0.001" in told
 
 
+@pytest.mark.parametrize(
+    ("share", "half", "told"),
+    [(0.0, 1.0, "W_c not at all"), (0.3, 0.4, "W_c only to +- 0.4"), (0.3, 0.05, "W_c to +- 0.05")],
+)
+def test_a_share_that_may_be_anything_is_not_known(share: float, half: float, told: str) -> None:
+    found = run_of(contact_load_ratio=share, error_load_ratio=half, error_friction=0.1)
+    words = " ".join(" ".join(trust.after(MTM, found, {})).split())
+    assert "friction to 10 %" in words and told in words
+
+
+def test_bodies_without_roughness_below_the_grid_are_told_in_words() -> None:
+    bare = {f"surface_{i}.microroughness.rms": "0 nm" for i in (1, 2)}
+    scene = Scene.from_toml("mtm_zddp", {"film.model": "regression", **bare})
+    found = run_of()
+    found["range_flags"][:] = int(RangeFlag.OUTSIDE_FIT)
+    (told,) = flags.sentences(scene, found)
+    assert "(no body has microroughness (surface_1.microroughness): fitted to bodies that have it)" in told
+    assert "inf" not in told
+
+
 def test_invalid_rows_are_told() -> None:
     found = run_of()
     found["valid"][1] = False

@@ -17,7 +17,7 @@ from typing import Any
 
 from contact_core.quantities import TABLE, Quantity
 
-from ...parts.part import Part, indexed
+from ...parts.part import Part, indexed, start_values
 from ...parts.shaft import Shaft
 from ...parts.speed_source import SpeedSource
 from ...parts.thermal import ThermalNetwork
@@ -27,7 +27,8 @@ from ..tables import record, scene_of
 from ..timeline import Timeline
 from . import report
 from .equilibrium import RingLoads
-from .part import RECEIVED, SENT, BallBearing, LoadClass
+from .geometry import RACES
+from .part import RECEIVED, SENT, BallBearing, LoadClass, contact_name
 from .rating import Rating
 
 SIGNALS = {
@@ -46,6 +47,9 @@ _SETS = {
     "moment": "bearing.moment_z",
     "ambient": "housing.temperature_ambient",
 }
+_BY_SIGNAL = {"speed": "bearing.speed"} | {
+    name: _SETS[name] for name in ("load", "axial_load", "moment")
+}  # inputs of the bearing
 _SHAFT: tuple[tuple[Any, ...], ...] = (
     ("drive.speed", "shaft.speed_drive"),
     ("shaft.torque_coupling", "drive.torque"),
@@ -92,6 +96,20 @@ def _leans(bearing: BallBearing, duty: Timeline) -> bool:
     return bearing.dimensions.contact_angle > 0.0 or any(row.get("axial_load") or row.get("moment") for row in rows)
 
 
+def foreseen(parts: Mapping[str, Part], signals: Mapping[str, float]) -> dict[str, dict[str, float]]:
+    """Return load, speeds, spin and radius of the contacts of all load classes under signals of the duty."""
+    bearing = parts["bearing"]
+    assert isinstance(bearing, BallBearing)
+    turning = {target.partition(".")[2]: signals.get(name, 0.0) for name, target in _BY_SIGNAL.items()}
+    inputs = start_values(bearing) | turning
+    found = bearing.outputs(bearing.initial(inputs), inputs)
+    return {
+        contact_name(race, k): {key: found[indexed(f"{key}_{race}", k)] for key in SENT}
+        for race in RACES
+        for k in range(1, bearing.levels + 1)
+    }
+
+
 def _contact(table: Mapping[str, Any], design: LoadClass, moved: tuple[str, ...]) -> Contact:
     """Return the contact of a load class: values of its FMU beside the connected inputs."""
     tracks = {f"geometry.track_length_{i}": getattr(design, f"track_length_{i}") for i in (1, 2)}
@@ -121,6 +139,8 @@ BALL_BEARING = Kind(
     signals=SIGNALS,
     needed=("speed",),
     design=design,
+    foreseen=foreseen,
+    legend=report.LEGEND,
     lines=report.lines,
     pictures=report.write,
 )

@@ -17,6 +17,22 @@ _CELSIUS = 273.15
 _NM, _NMM = 1e9, 1e3  # per m, per N m
 _NOTHING = 1e-3  # nm: less of a film or wear is none
 _UNLOADED = 0.5  # N: less is printed as none, and its film says nothing
+_HEADS = (
+    ("contacts", ""), ("balls", ""), ("load", "N"), ("p_max", "GPa"), ("h_c", "nm"), ("lambda", ""), ("mu", ""),
+    ("solids", ""), ("tribofilm b", "nm"), ("tribofilm r", "nm"), ("wear b", "nm"), ("wear r", "nm"),
+)  # fmt: skip
+LEGEND = {
+    "balls": "how many a class of contacts stands for",
+    "load": "of one of them",
+    "p_max": "largest pressure, after Hertz",
+    "h_c": "mean film over the inner 2/3 of the contact",
+    "lambda": "h_c / present roughness, not that of handbooks",
+    "mu": "friction coefficient",
+    "solids": "load on asperities",
+    "tribofilm, wear": "mean thickness and mean wear depth on ball (b) and ring (r)",
+    "P": "equivalent load",
+    "kappa, a_ISO": "viscosity ratio and life factor of ISO 281",
+}
 _SOLIDS, _LAYERS = "contact_load_ratio", ("tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2")
 
 
@@ -45,13 +61,7 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
 
 
 def _contacts(run: BearingRun, row: int) -> list[str]:
-    rows = [
-        [
-            *("contacts", "balls", "load", "p_max", "h_c", "lambda", "mu", "solids"),
-            *("tribofilm b", "tribofilm r", "wear b", "wear r"),
-        ],
-        ["", "", "N", "GPa", "nm", "", "", "", *4 * ["nm"]],
-    ]
+    rows = [[name for name, _ in _HEADS], [unit for _, unit in _HEADS]]
     for which in run.classes:
         load, balls = (run.given(which, name)[row] for name in ("load", "count"))
         if balls < FEWEST:
@@ -64,12 +74,7 @@ def _contacts(run: BearingRun, row: int) -> list[str]:
         carried = [f"{pressure:.2f}", f"{_NM * h_c:.0f}", film, f"{mu:.4f}", f"{solids:.1%}"]
         shown = carried if load >= _UNLOADED else len(carried) * ["-"]
         rows.append([which.contact, f"{balls:.2f}", f"{load:.0f}", *shown, *map(_nanometres, layers)])
-    return [
-        *aligned(rows, 1),
-        *_damage(run, row),
-        "balls: how many a class stands for; solids: load on asperities; tribofilm, wear: mean thickness and mean "
-        "wear depth on ball (b) and ring (r).",
-    ]
+    return [*aligned(rows, 1), *_damage(run, row)]
 
 
 def _damage(run: BearingRun, row: int) -> list[str]:

@@ -18,6 +18,7 @@ from contact_core.errors import SceneError
 from contact_core.quantities import TABLE, Quantity
 
 from ...parts.load_arm import LoadArm
+from ...parts.part import Part
 from ...parts.spindle import OppositeSpindle, Spindle
 from ...parts.thermal import ThermalNetwork
 from ..assembly import Contact, Schedule
@@ -70,6 +71,13 @@ _CONNECTIONS: tuple[tuple[Any, ...], ...] = (
 )
 
 
+def foreseen(parts: Mapping[str, Part], signals: Mapping[str, float]) -> dict[str, dict[str, float]]:
+    """Return load and speeds of the contact under signals of the duty."""
+    mean, ratio = signals["entrainment_speed"], signals["slide_roll_ratio"]
+    speeds = {f"speed_{i}": mean * (1.0 + sign * ratio) for i, sign in ((1, 0.5), (2, -0.5))}
+    return {"contact": {"load": signals["load"], **speeds}}
+
+
 def _schedule(duty: Timeline) -> Schedule:
     """Return the schedule of the parts; both surface speeds follow from two signals."""
     given: Schedule = {target: duty.course(name) for name, target in _SETS.items() if name in duty.rows[0][1]}
@@ -85,6 +93,8 @@ BALL_ON_DISC = Kind(
     signals=SIGNALS,
     needed=("entrainment_speed", "slide_roll_ratio", "load"),
     design=design,
+    foreseen=foreseen,
+    legend=report.LEGEND,
     lines=report.lines,
     pictures=report.write,
 )

@@ -12,6 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ...run.cosim_report import aligned
+from ...run.half_widths import cell
 from ...store.results import ERROR
 from ..assembly import Assembly
 from ..report import heat_stored
@@ -39,6 +40,14 @@ _COLUMNS = (
     ("loss", "W", "contact.power_loss", 1.0, 3),
 )
 
+LEGEND = {
+    "h_c": "mean film over the inner 2/3 of the contact",
+    "lambda": "h_c / present roughness, not that of handbooks",
+    "tribofilm, wear": "means over the track of ball 1 and disc 2",
+    "rough": "rms roughness of ball 1 and disc 2",
+    "loss": "heat of friction",
+    "+-": "error (95 %)",
+}
 _BLUE, _RED, _GREEN, _BLACK = "#0072B2", "#D55E00", "#009E73", "#000000"  # of Okabe and Ito
 _Line = tuple[str, str, str]  # variable, legend, colour
 
@@ -152,12 +161,20 @@ def _table(dataset: xr.Dataset, found: list[Sweep]) -> list[str]:
     body = [
         [
             f"{times[row] / 60.0:.2f}",
-            *(f"{factor * dataset[name].values[row]:.{digits}f}" for _, _, name, factor, digits in _COLUMNS),
+            *(_told(dataset, name, row, factor, digits) for _, _, name, factor, digits in _COLUMNS),
             f"{dataset['bath.temperature_oil'].values[row] - _ZERO:.2f}",
         ]
         for row in rows
     ]
     return aligned([*heads, *body], 0)
+
+
+def _told(dataset: xr.Dataset, name: str, row: int, factor: float, digits: int) -> str:
+    """Return a value as text, with the half width of its error where one is stated."""
+    value, half = factor * float(dataset[name].values[row]), dataset.coords.get(f"{name}{ERROR}")
+    if half is None:
+        return f"{value:.{digits}f}"
+    return cell(name.rpartition(".")[2], value, factor * float(half.values[row]), digits)
 
 
 def _curves(dataset: xr.Dataset, found: list[Sweep]) -> Iterator[str]:

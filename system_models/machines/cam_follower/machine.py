@@ -15,7 +15,7 @@ from typing import Any
 
 from contact_core.quantities import TABLE, Quantity
 
-from ...parts.part import Part, indexed
+from ...parts.part import Part, indexed, start_values
 from ...parts.shaft import Shaft
 from ...parts.speed_source import SpeedSource
 from ...parts.thermal import ThermalNetwork
@@ -70,6 +70,15 @@ def design(table: Mapping[str, Any], duty: Timeline) -> Design:
     )
 
 
+def foreseen(parts: Mapping[str, Part], signals: Mapping[str, float]) -> dict[str, dict[str, float]]:
+    """Return load, speeds and radius of the contacts under signals of the duty."""
+    cam = parts["cam"]
+    assert isinstance(cam, CamFollower)
+    found = cam.outputs((), start_values(cam) | {"speed": signals["speed"]})
+    names = {k: contact_name(k, cam.stations) for k in range(1, cam.stations + 2)}
+    return {name: {key: found[indexed(key, k)] for key in SENT} for k, name in names.items()}
+
+
 def _contact(table: Mapping[str, Any], cam: CamFollower, station: Station) -> Contact:
     """Return the contact at a station."""
     scene = scene_of(table)
@@ -94,6 +103,8 @@ CAM_FOLLOWER = Kind(
     signals=SIGNALS,
     needed=("speed",),
     design=design,
+    foreseen=foreseen,
+    legend=report.LEGEND,
     lines=report.lines,
     pictures=report.write,
 )

@@ -11,6 +11,17 @@ from . import pictures
 from .record import Record
 
 _RPM, _CELSIUS, _NM, _MM = 30.0 / math.pi, 273.15, 1e9, 1e3
+LEGEND = {
+    "angle": "of the cam, from the nose",
+    "radius": "combined radius of the contact",
+    "u cam, u follower": "surface speeds relative to the contact",
+    "p_H": "Hertz pressure",
+    "h_c": "mean film over the inner 2/3 of the contact",
+    "lambda": "h_c / present roughness, not that of handbooks",
+    "mu": "friction coefficient",
+    "loss": "heat of friction at this angle",
+    "tribofilm, wear": "means over the track of cam 1 and follower 2",
+}
 _LEAST = 1e-9  # J: no energy
 _HEADS = (
     ("angle", "deg"), ("lift", "mm"), ("load", "N"), ("radius", "mm"), ("u cam", "m/s"), ("u follower", "m/s"),

@@ -21,7 +21,7 @@ from contact_core.quantities import TABLE, Quantity
 from contact_core.scene.toml import did_you_mean, unbuild
 
 from ...parts.brake import Brake
-from ...parts.part import Part, indexed
+from ...parts.part import Part, indexed, start_values
 from ...parts.speed_source import SpeedSource
 from ...parts.thermal import ThermalNetwork
 from ..assembly import Schedule
@@ -70,6 +70,16 @@ def design(table: Mapping[str, Any], duty: Timeline) -> Design:
         schedule,
         {"rating": record(Rating, table, "rating")} if "rating" in table else {},
     )
+
+
+def foreseen(parts: Mapping[str, Part], signals: Mapping[str, float]) -> dict[str, dict[str, float]]:
+    """Return load and speeds of the contacts under signals of the duty."""
+    mesh = parts["mesh"]
+    assert isinstance(mesh, GearMesh)
+    speed = signals["speed"]
+    turning = {"torque": signals["torque"], "speed_1": speed, "speed_2": speed / mesh.pair.ratio}
+    found = mesh.outputs((), start_values(mesh) | turning)
+    return {flank(k): {key: found[indexed(key, k)] for key in SENT} for k in range(1, mesh.stations + 1)}
 
 
 _SETS = {
@@ -128,6 +138,8 @@ GEAR_PAIR = Kind(
     signals=SIGNALS,
     needed=("speed", "torque"),
     design=design,
+    foreseen=foreseen,
+    legend=report.LEGEND,
     lines=report.lines,
     pictures=report.write,
 )

@@ -217,7 +217,7 @@ def _by_stage(axis: "Axes", label: str, numbers: list[int], *curves: tuple[str, 
     axis.minorticks_off()
     if len(numbers) <= _MOST_CURVES:
         axis.set_xticks(numbers)
-    axis.legend(frameon=False, fontsize="small", loc="upper right")
+    axis.legend(frameon=False, fontsize="small", loc="best")
     axis.spines[["top", "right"]].set_visible(False)
 
 

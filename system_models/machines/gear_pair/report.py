@@ -27,6 +27,21 @@ _SAFETY_HEADS = (
     ("bulk", "degC"), ("theta_B", "degC"), ("S_B", ""), ("theta_int", "degC"), ("S_intS", ""), ("hottest", "degC, run"),
     ("S_B", "run"),
 )  # fmt: skip
+LEGEND = {
+    "n1, T1": "speed and torque of the pinion",
+    "p_H at C": "Hertz pressure at the pitch point, one pair carrying all",
+    "lambda": "least and largest h_c / present roughness along the path",
+    "mu_mz": "mean friction of the mesh, from its loss",
+    "Schlenk, ISO/TR-1": "the same by formula",
+    "loss": "of sliding and rolling",
+    "oil, pinion, wheel": "temperatures",
+    "flash": "largest rise above the bodies",
+    "wear 1, wear 2": "largest depth on pinion and wheel",
+    "lambda_GF, S_lambda": "film ratio and safety against micropitting by ISO/TS 6336-22",
+    "h_c/Ra": "the least by the run",
+    "bulk, theta_B, theta_int, hottest": "temperatures: of the bodies, of flash, integral, and by the run",
+    "S_B, S_intS": "safety against scuffing",
+}
 _PROFILE = 7.5e-6  # m, mean deviation of the profile with which an oil fails the test of FVA 54/7
 
 
