@@ -150,8 +150,8 @@ def tried(job: str, fault: str, alone: float, expected: str, draw: random.Random
         code, memory = strike(trial, process, alone * draw.uniform(0.3, 0.95))
         trial.hit |= fault == "full disk" and code not in (0, 1)
         said = log.read_text("utf-8", "replace")
-        if fault.startswith("cut"):
-            trial.hit &= cut(folder, "checkpoint.tribofmu" if fault == "cut checkpoint" else "*.n[cp]*")
+        if fault.startswith("cut") and cut(folder, "checkpoint.tribofmu" if fault == "cut checkpoint" else "*.n[cp]*"):
+            trial.hit, code = True, None  # also of a job that has ended: its result has to be made again
         for _ in range(TRIES):
             trial.memory.append(memory)
             trial.sentences &= "Traceback" not in said and (code in (0, 1, None, -9) or "tribofmu:" in said)
