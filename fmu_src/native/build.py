@@ -33,6 +33,7 @@ _SHARED = (
     "log.h",
     "model.h",
     "elementary.h",
+    "elementary_arrays.h",
 )
 RUNTIME: dict[Fmi, tuple[str, ...]] = {2: ("fmi2.c", *_SHARED), 3: ("fmi3.c", "fmi3_absent.c", *_SHARED)}
 
