@@ -2,6 +2,7 @@
 
 import math
 import random
+import re
 import shutil
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -162,6 +163,17 @@ def unrolled(x, y):
     return total + y
 
 
+WEIGHTS = np.array([0.1, 0.2, 0.3, 0.25, 0.15])
+NODES = np.array([0.125, 0.25, 0.5, 0.75, 1.5])
+
+
+def quadrature(x, y):
+    base = NODES * np.abs(y) + 1.0
+    each = np.exp(NODES * x) + np.arcsinh(np.abs(NODES * x)) * base ** (0.3 * y) / base**-1.7
+    total = WEIGHTS @ each
+    return float(total) + x
+
+
 def chosen_constants(x, y):
     limit = math.inf if x > y else 3
     return min(limit, 10.0) + (x == y)
@@ -189,6 +201,7 @@ CONSTRUCTS = (
     whole_numbers,
     named_expression,
     unrolled,
+    quadrature,
     chosen_constants,
     mixed_kinds,
 )
@@ -209,6 +222,13 @@ def test_a_construct_is_the_same_in_c(function, tmp_path):
     pairs = [(x, y) for x in VALUES for y in VALUES] + [(rng.gauss(0, 3), rng.gauss(0, 3)) for _ in range(50)]
     for x, y in pairs:
         assert flat(in_c(x, y)) == approx(flat(function(x, y)), rel=1e-14, abs=0.0), (x, y)
+
+
+def test_elementary_functions_of_nodes_take_arrays(tmp_path):
+    in_c = translated(tmp_path, quadrature, unknown(2))
+    for call in ("own_exps(5, ", "own_asinhs(5, ", "own_pows(5, "):
+        assert in_c.text.count(call) >= 1
+    assert not re.search(r"own_(exp|asinh)\(", in_c.text)
 
 
 def refusing(x, y):
