@@ -77,20 +77,28 @@ static inline int pair_exp(double *x)
 }
 
 /* own_pow; 0 where one of both is at an end */
-static inline int pair_pow(double *x, double y)
+static inline int pair_pow(pair *x, pair y)
 {
-    const pair base = pair_from(x);
-    if (!pair_is((base >= 0x1p-1022) & (base <= 0x1.fffffffffffffp+1023))) {
+    if (!pair_is((*x >= 0x1p-1022) & (*x <= 0x1.fffffffffffffp+1023))) {
         return 0;
     }
-    const struct pair_log of_x = pair_log_parts(base);
-    const double of_y = upper_half(y);
-    const pair first = (pair)((pair_bits)of_x.high & UPPER_HALF);
+    const struct pair_log of_x = pair_log_parts(*x);
+    const pair first = (pair)((pair_bits)of_x.high & UPPER_HALF), of_y = (pair)((pair_bits)y & UPPER_HALF);
     const pair high = first * of_y;
     if (!pair_is(pair_size(high) < 708.0)) {
         return 0;
     }
-    pair_to(x, pair_exp_of(high, (first * (y - of_y) + (of_x.high - first) * y) + of_x.low * y));
+    *x = pair_exp_of(high, (first * (y - of_y) + (of_x.high - first) * y) + of_x.low * y);
+    return 1;
+}
+
+static inline int pair_of_pows(double *x, double y)
+{
+    pair both = pair_from(x);
+    if (!pair_pow(&both, (pair){y, y})) {
+        return 0;
+    }
+    pair_to(x, both);
     return 1;
 }
 
@@ -121,7 +129,7 @@ static inline int pair_asinh(double *x)
 #else
 
 static inline int pair_exp(double *x) { return (void)x, 0; }
-static inline int pair_pow(double *x, double y) { return (void)x, (void)y, 0; }
+static inline int pair_of_pows(double *x, double y) { return (void)x, (void)y, 0; }
 static inline int pair_asinh(double *x) { return (void)x, 0; }
 
 #endif
@@ -140,7 +148,7 @@ static inline void own_exps(int count, double *x)
 static inline void own_pows(int count, double *x, double y)
 {
     for (int i = 0; i < count; ++i) {
-        if (i + 1 < count && pair_pow(x + i, y)) {
+        if (i + 1 < count && pair_of_pows(x + i, y)) {
             ++i;
         } else {
             x[i] = own_pow(x[i], y);
@@ -157,6 +165,29 @@ static inline void own_asinhs(int count, double *x)
             x[i] = own_asinh(x[i]);
         }
     }
+}
+
+struct two_powers {
+    double first;
+    double second;
+};
+
+SELDOM struct two_powers powers_one_by_one(double x, double a, double y, double b)
+{
+    const struct two_powers found = {own_pow(x, a), own_pow(y, b)};
+    return found;
+}
+
+/* x^a and y^b */
+static inline struct two_powers own_two_powers(double x, double a, double y, double b)
+{
+#ifdef __GNUC__
+    pair both = {x, y};
+    if (pair_pow(&both, (pair){a, b})) {
+        return (struct two_powers){both[0], both[1]};
+    }
+#endif
+    return powers_one_by_one(x, a, y, b);
 }
 
 #endif

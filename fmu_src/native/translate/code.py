@@ -10,6 +10,7 @@ _NAMES = re.compile(r'"(?:[^"\\]|\\.)*"|(?<![\w.])([A-Za-z_]\w*)')  # outside qu
 _USES = re.compile(r"\b(?<=struct )\w+|(?<![\w.])\w+(?=\()")  # of functions and structs
 _CTYPES = {"d": "double", "i": "int", "b": "int"}
 _WIDTH = 116
+_QUICK = frozenset({"fabs", "smaller", "larger", "sqrt", "squared", "cubed"})  # functions
 
 
 def c_type(kind: str) -> str:
@@ -104,6 +105,33 @@ Block: TypeAlias = list[Statement]
 def names_in(text: str | None) -> set[str]:
     """Return the names in a piece of C, of r.gap r alone."""
     return set(_NAMES.findall(text)) - {""} if text else set()
+
+
+def takes_long(text: str | None) -> bool:
+    """Return True for an expression that calls a function of more than a few instructions."""
+    return bool(set(re.findall(r"\b(\w+)\(", text or "")) - _QUICK)
+
+
+def closed(text: str, start: int) -> int:
+    """Return where the parenthesis ends that begins before `start`."""
+    depth = 1
+    for place in range(start, len(text)):
+        depth += {"(": 1, ")": -1}.get(text[place], 0)
+        if depth == 0:
+            return place
+    raise AssertionError(f"'{text}' has an open parenthesis")
+
+
+def operands(text: str) -> list[str]:
+    """Return the operands of a call."""
+    found, depth = [""], 0
+    for sign in text:
+        depth += {"(": 1, ")": -1}.get(sign, 0)
+        if sign == "," and depth == 0:
+            found.append("")
+        else:
+            found[-1] += sign
+    return [each.strip() for each in found]
 
 
 def used(block: Block) -> set[str]:

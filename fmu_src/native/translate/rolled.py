@@ -17,7 +17,6 @@ _NUMBER = r"(?:\d[\d.]*(?:e[-+]?\d+)?|INFINITY)"
 _TERM = re.compile(rf"(-?{_NUMBER}) \* (\w+)")
 _TOKEN = re.compile(rf"(?<![\w.]){_NUMBER}|[A-Za-z_][\w.]*|\s+|.")
 _CALL = re.compile(r"own_\w+\([^()]*\)")  # without another one in it
-_QUICK = frozenset({"fabs", "smaller", "larger", "sqrt", "squared", "cubed"})  # a few instructions
 # functions of elementary_arrays.h by those of one number, which nodes differ in, and names of what they give
 _OF_ARRAYS = {
     "own_exp": ("own_exps", "exponential"),
@@ -100,7 +99,7 @@ class _Nodes:
             needs = [n for n in code.names_in(each.value) if n in levels and n != each.name]
             level = max((levels[n] + self.calling[n] for n in needs), default=0)
             levels[each.name] = level
-            self.calling[each.name] = each.name in self.takes or bool(set(_calls(each.value)) - _QUICK)
+            self.calling[each.name] = each.name in self.takes or code.takes_long(each.value)
             staged.setdefault(level, []).append(each)
         late = {name for level, block in staged.items() for name in code.used(block) if levels.get(name, level) < level}
         late |= self.takes.keys()
@@ -118,8 +117,8 @@ class _Nodes:
         text = statement.value or ""
         found: list[code.Let | code.Put] = []
         while calls := [each for each in _OF_NODES.finditer(text) if self._takes_nodes(text, each.end())]:
-            start, end = calls[-1].start(), _closed(text, calls[-1].end())  # no other such call is in the last one
-            first, *rest = _operands(text[calls[-1].end() : end])
+            start, end = calls[-1].start(), code.closed(text, calls[-1].end())  # no other such call is in the last one
+            first, *rest = code.operands(text[calls[-1].end() : end])
             whole = isinstance(statement, code.Let) and (start, end + 1) == (0, len(text))
             function, result = _OF_ARRAYS[calls[-1][1]]
             name = statement.name if whole else self.unit.fresh(result)
@@ -134,7 +133,7 @@ class _Nodes:
 
     def _takes_nodes(self, text: str, start: int) -> bool:
         """Return True for a call of which nodes differ in the first operand alone."""
-        _, *rest = _operands(text[start : _closed(text, start)])
+        _, *rest = code.operands(text[start : code.closed(text, start)])
         made = {each.name for each in self.body if isinstance(each, code.Let)}
         return not any(self.node in code.names_in(each) or code.names_in(each) & made for each in rest)
 
@@ -217,33 +216,6 @@ class _Nodes:
                     self.before.append(code.Let("double", self.calls[call], call))
                 texts = [text.replace(call, self.calls[call]) for text in texts]
         return texts
-
-
-def _calls(text: str | None) -> list[str]:
-    """Return the names of the functions that an expression calls."""
-    return re.findall(r"\b(\w+)\(", text or "")
-
-
-def _closed(text: str, start: int) -> int:
-    """Return where the parenthesis ends that begins before `start`."""
-    depth = 1
-    for place in range(start, len(text)):
-        depth += {"(": 1, ")": -1}.get(text[place], 0)
-        if depth == 0:
-            return place
-    raise AssertionError(f"'{text}' has an open parenthesis")
-
-
-def _operands(text: str) -> list[str]:
-    """Return the operands of a call."""
-    found, depth = [""], 0
-    for sign in text:
-        depth += {"(": 1, ")": -1}.get(sign, 0)
-        if sign == "," and depth == 0:
-            found.append("")
-        else:
-            found[-1] += sign
-    return [each.strip() for each in found]
 
 
 def _assigned(block: code.Block) -> set[str]:
