@@ -179,7 +179,7 @@ SELDOM struct two_powers powers_one_by_one(double x, double a, double y, double 
 }
 
 /* x^a and y^b */
-static inline struct two_powers own_two_powers(double x, double a, double y, double b)
+OFTEN struct two_powers own_two_powers(double x, double a, double y, double b)
 {
 #ifdef __GNUC__
     pair both = {x, y};
