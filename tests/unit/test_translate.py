@@ -174,6 +174,16 @@ def quadrature(x, y):
     return float(total) + x
 
 
+def powers(x, y):
+    base, other = abs(x) + 0.5, abs(y) + 0.25
+    one = base**0.3
+    two = other**1.7 * one
+    if two > 2.0:
+        return (two + base ** (other**-0.6)) ** 0.9 + (one * base) ** 0.2
+    three = (two + 1.0) ** 0.4
+    return Pair(base**-0.7 + three**0.35, other**0.1 if x > 0.0 else base**0.6).left
+
+
 def chosen_constants(x, y):
     limit = math.inf if x > y else 3
     return min(limit, 10.0) + (x == y)
@@ -202,6 +212,7 @@ CONSTRUCTS = (
     named_expression,
     unrolled,
     quadrature,
+    powers,
     chosen_constants,
     mixed_kinds,
 )
@@ -229,6 +240,20 @@ def test_elementary_functions_of_nodes_take_arrays(tmp_path):
     for call in ("own_exps(5, ", "own_asinhs(5, ", "own_pows(5, "):
         assert in_c.text.count(call) >= 1
     assert not re.search(r"own_(exp|asinh)\(", in_c.text)
+
+
+def in_turn(x, y):
+    base = abs(x) + 0.5
+    first = base**0.3
+    second = first**1.7
+    apart = (y * y + 1.0) ** 0.6
+    return second + apart
+
+
+def test_powers_are_in_pairs_where_neither_needs_the_other(tmp_path):
+    in_c = translated(tmp_path, in_turn, unknown(2))
+    assert in_c.text.count("own_two_powers(base, 0.3, y * y + 1.0, 0.6)") == 1
+    assert in_c.text.count("own_pow(first, 1.7)") == 1
 
 
 def refusing(x, y):
