@@ -336,6 +336,25 @@ def test_functions_that_are_alike_are_written_once(tmp_path):
     assert in_c.text.count("static double inner") == 1
 
 
+def by_other_names(x, y):
+    return first_of({"left": x, "right": y}) - first_of({"above": y, "below": x}) / first_of({"one": x, "two": x})
+
+
+def first_of(sides):
+    one, other = sides.values()
+    total = one * 2.0
+    if one > 0.0:
+        return total + other
+    return -total
+
+
+def test_functions_that_are_alike_but_for_names_are_written_once(tmp_path):
+    in_c = translated(tmp_path, by_other_names, unknown(2))
+    assert in_c(2.0, -3.0) == by_other_names(2.0, -3.0)
+    assert in_c.text.count("static double first_of(") == 1
+    assert in_c.text.count("static double first_of") == 2  # one body, or both the same
+
+
 def places(x, y):
     return ({"one": 1.0}, {"one": x})[int(x > y)]
 
