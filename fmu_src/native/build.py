@@ -33,6 +33,7 @@ _SHARED = (
     "log.h",
     "model.h",
     "elementary.h",
+    "elementary_arrays.h",
 )
 RUNTIME: dict[Fmi, tuple[str, ...]] = {2: ("fmi2.c", *_SHARED), 3: ("fmi3.c", "fmi3_absent.c", *_SHARED)}
 
@@ -47,8 +48,8 @@ FLAGS = (
     "-fvisibility=hidden",
     "-ffp-contract=off",
     "-fno-math-errno",
-    "-fno-tree-slp-vectorize",  # numbers in pairs make the series of elementary.h slower
 )
+_OF_GCC_ALONE = ("-fno-tree-slp-vectorize",)  # its numbers in pairs make the series of elementary.h slower
 
 
 @dataclass(frozen=True)
@@ -217,7 +218,7 @@ _OF_LINKER = ("-s", "-shared")
 def _caller(target: str, compiler: Compiler) -> list[str]:
     if compiler == "zig":
         return [sys.executable, "-m", "ziglang", "cc", "-target", TARGETS[target].triple]
-    return [compiler]
+    return [compiler, *_OF_GCC_ALONE]
 
 
 _FAT, _PAGE = 0xCAFEBABE, 14  # magic number, logarithm of the alignment

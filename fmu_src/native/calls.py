@@ -161,7 +161,7 @@ INCLUDES = """\
 /* Written from contact_core; each function names the Python that it was written from. Do not edit. */
 
 #include "contact.h"
-#include "elementary.h"
+#include "elementary_arrays.h"
 
 #include <stdarg.h>
 #include <stdio.h>"""

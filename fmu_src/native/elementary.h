@@ -13,10 +13,14 @@
 
 #include "tables.h"
 
+/* SELDOM: beside the way of usual numbers. OFTEN: one copy for all calls, as a step is longer than what processors keep of
+   decoded instructions; two calls with the same numbers are one. */
 #ifdef __GNUC__
 #define SELDOM static __attribute__((noinline, cold, unused))
+#define OFTEN static __attribute__((noinline, const, unused))
 #else
 #define SELDOM static
+#define OFTEN static inline
 #endif
 
 /* bits of a double: 1 of the sign, 11 of the exponent, 52 of the fraction */
@@ -201,7 +205,7 @@ static inline double power_of(struct log_sum of_x, double y)
 }
 
 /* x^y of x >= 0 */
-static inline double own_pow(double x, double y)
+OFTEN double own_pow(double x, double y)
 {
     const uint64_t bits = bits_of(x);
     if (x == 1.0) {

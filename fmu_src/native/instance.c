@@ -1,6 +1,5 @@
 #include "instance.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -92,11 +91,17 @@ static Status check_inputs(Instance *it) {
     return refuse(it, WARNING, OF_VALIDITY, why.text);
 }
 
+/* A number is finite if the bits of its exponent are not all ones: one more then carries into the sign's. Whole numbers
+   take a processor half the time that comparisons of doubles do. */
 int outputs_finite(const contact_outputs *outputs) {
     const double *value = (const double *)outputs;
-    int finite = 1;
-    for (size_t i = 0; i < OUTPUTS; i++) finite &= fabs(value[i]) <= DBL_MAX;
-    return finite;
+    uint64_t carried = 0;
+    for (size_t i = 0; i < OUTPUTS; i++) {
+        uint64_t bits;
+        memcpy(&bits, &value[i], sizeof bits);
+        carried |= (bits & 0x7fffffffffffffffu) + 0x0010000000000000u;
+    }
+    return !(carried >> 63);
 }
 
 static Status refuse_broken(Instance *it) {
@@ -223,35 +228,48 @@ Status instance_exit(Instance *it) {
 
 static Status refuse_step(Instance *it, const Text *why) { return refuse(it, ERROR, OF_ERRORS, why->text); }
 
+static Status refuse_time(Instance *it, double time) {
+    Text why = {.size = 0};
+    text_add(&why, "currentCommunicationPoint = %g s must be a finite number. Nothing was done.", time);
+    return refuse_step(it, &why);
+}
+
+static Status refuse_gap(Instance *it, double time) {
+    Text why = {.size = 0};
+    text_add(&why,
+             "currentCommunicationPoint = %.15g s must be %.15g s, where the last step has ended. Begin there, or "
+             "restore a saved state. Nothing was done.",
+             time, it->now.time);
+    return refuse_step(it, &why);
+}
+
+static Status refuse_end(Instance *it, double time, double size) {
+    Text why = {.size = 0};
+    text_add(&why,
+             "The step from %.15g s to %.15g s goes beyond stopTime = %.15g s. Give a later one, or none, in %s%s. "
+             "Nothing was done.",
+             time, time + size, it->stop, it->host.prefix, it->host.experiment);
+    return refuse_step(it, &why);
+}
+
 /* A host's rounding at the end of a run can make the last step slightly negative. */
 static double rounded(double time, double size) {
     return -ROUNDED * fabs(time) <= size && size < 0.0 ? 0.0 : size;
 }
 
+/* True for the end of a step beyond a stop time by more than a host's rounding. */
+static int beyond(double end, double stop, double length) {
+    return end > stop && end > stop + fmin(HALF * length, PAST * fmax(1.0, fabs(stop)));
+}
+
 Status instance_check_step(Instance *it, double time, double size) {
-    Text why = {.size = 0};
     if (must_be(it, "DoStep", STEPPING, BEHIND) != OK) return ERROR;
     size = rounded(time, size);
     double length = isfinite(size) ? fabs(size) : 0.0;
-    if (!isfinite(time)) {
-        text_add(&why, "currentCommunicationPoint = %g s must be a finite number. Nothing was done.", time);
-        return refuse_step(it, &why);
-    }
-    if (!it->anywhere && !(fabs(time - it->now.time) <= PART * length + ROUNDED * fabs(time))) {
-        text_add(&why,
-                 "currentCommunicationPoint = %.15g s must be %.15g s, where the last step has ended. Begin there, or "
-                 "restore a saved state. Nothing was done.",
-                 time, it->now.time);
-        return refuse_step(it, &why);
-    }
-    if (time + size > it->stop + fmin(HALF * length, PAST * fmax(1.0, fabs(it->stop)))) {
-        text_add(&why,
-                 "The step from %.15g s to %.15g s goes beyond stopTime = %.15g s. Give a later one, or none, in %s%s. "
-                 "Nothing was done.",
-                 time, time + size, it->stop, it->host.prefix, it->host.experiment);
-        return refuse_step(it, &why);
-    }
-    return OK;
+    if (!isfinite(time)) return refuse_time(it, time);
+    if (!it->anywhere && !(fabs(time - it->now.time) <= PART * length + ROUNDED * fabs(time)))
+        return refuse_gap(it, time);
+    return beyond(time + size, it->stop, length) ? refuse_end(it, time, size) : OK;
 }
 
 Status instance_step(Instance *it, double time, double size) {

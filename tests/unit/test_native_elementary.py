@@ -6,6 +6,7 @@ import random
 import shutil
 import subprocess
 from decimal import Decimal, localcontext
+from itertools import pairwise
 
 import pytest
 
@@ -20,13 +21,30 @@ INF, NAN = math.inf, math.nan
 TINY, LEAST, MOST = 5e-324, 2.2250738585072014e-308, 1.7976931348623157e308
 COUNT = 400
 
+ARRAYS = """
+void c_exps(int, double *, double);
+void c_exps(int count, double *x, double y) { (void)y; own_exps(count, x); }
+void c_pows(int, double *, double);
+void c_pows(int count, double *x, double y) { own_pows(count, x, y); }
+void c_asinhs(int, double *, double);
+void c_asinhs(int count, double *x, double y) { (void)y; own_asinhs(count, x); }
+void c_two_powers(double *, double);
+void c_two_powers(double *x, double y)
+{
+    const struct two_powers found = own_two_powers(x[0], y, x[1], x[2]);
+    x[0] = found.first;
+    x[1] = found.second;
+}
+"""
+
 WRAPPERS = "\n".join(
-    ['#include "elementary.h"']
+    ['#include "elementary_arrays.h"']
     + [f"double c_{name}(double); double c_{name}(double x) {{ return own_{name}(x); }}" for name in ONE]
     + [
         f"double c_{name}(double, double); double c_{name}(double x, double y) {{ return own_{name}(x, y); }}"
         for name in TWO
     ]
+    + [ARRAYS]
 )
 
 
@@ -44,6 +62,11 @@ def in_c(tmp_path_factory):
         found[name] = getattr(loaded, f"c_{name}")
         found[name].restype = ctypes.c_double
         found[name].argtypes = [ctypes.c_double] * (1 if name in ONE else 2)
+    for name in ("exps", "pows", "asinhs"):
+        found[name] = getattr(loaded, f"c_{name}")
+        found[name].argtypes = [ctypes.c_int, ctypes.POINTER(ctypes.c_double), ctypes.c_double]
+    found["two_powers"] = loaded.c_two_powers
+    found["two_powers"].argtypes = [ctypes.POINTER(ctypes.c_double), ctypes.c_double]
     return found
 
 
@@ -186,3 +209,31 @@ def test_an_edge_is_as_in_c99(in_c, name, given, expected):
         if math.isnan(expected)
         else abs(found - expected) <= 2.0 * math.ulp(expected) or found == expected
     )
+
+
+ENDS = (0.0, -0.0, TINY, 1e-310, LEAST, MOST, INF, -INF, NAN, 1.0, -1.0, 707.9, -707.9, 709.0, -745.0, 1e150, -1e150)
+
+
+@pytest.mark.parametrize("exponent", [0.7061309310834185, -1.5, 300.0, 0.0, INF, NAN])
+@pytest.mark.parametrize("name", ["exp", "pow", "asinh"])
+def test_an_array_has_the_bits_of_its_numbers_one_by_one(in_c, name, exponent):
+    rng = random.Random(name)
+    drawn = [_scaled(rng, -9.0, 2.5) for _ in range(COUNT)]
+    given = [x for pair in pairwise(drawn) for x in pair]  # both places of a pair
+    given += [x for end in ENDS for other in (*ENDS, 0.5, 2.0, 300.0) for x in (end, other, other, end)]
+    given.append(2.5)  # one alone at the end
+    array = (ctypes.c_double * len(given))(*given)
+    in_c[f"{name}s"](len(given), array, exponent)
+    one_by_one = [in_c[name](x, exponent) if name == "pow" else in_c[name](x) for x in given]
+    assert [x.hex() for x in array] == [x.hex() for x in one_by_one]
+
+
+def test_two_powers_have_the_bits_of_each(in_c):
+    rng = random.Random(5)
+    drawn = [(*_power(rng), *_power(rng)) for _ in range(COUNT)]
+    exponents = (0.7, -2.0, 0.0, INF, NAN)
+    drawn += [(x, a, y, b) for x in ENDS for y in (*ENDS, 3.0) for a, b in pairwise(exponents)]
+    for x, a, y, b in drawn:
+        both = (ctypes.c_double * 3)(x, y, b)
+        in_c["two_powers"](both, a)
+        assert [both[0].hex(), both[1].hex()] == [in_c["pow"](x, a).hex(), in_c["pow"](y, b).hex()], (x, a, y, b)

@@ -2,6 +2,7 @@
 
 import math
 import random
+import re
 import shutil
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -162,6 +163,27 @@ def unrolled(x, y):
     return total + y
 
 
+WEIGHTS = np.array([0.1, 0.2, 0.3, 0.25, 0.15])
+NODES = np.array([0.125, 0.25, 0.5, 0.75, 1.5])
+
+
+def quadrature(x, y):
+    base = NODES * np.abs(y) + 1.0
+    each = np.exp(NODES * x) + np.arcsinh(np.abs(NODES * x)) * base ** (0.3 * y) / base**-1.7
+    total = WEIGHTS @ each
+    return float(total) + x
+
+
+def powers(x, y):
+    base, other = abs(x) + 0.5, abs(y) + 0.25
+    one = base**0.3
+    two = other**1.7 * one
+    if two > 2.0:
+        return (two + base ** (other**-0.6)) ** 0.9 + (one * base) ** 0.2
+    three = (two + 1.0) ** 0.4
+    return Pair(base**-0.7 + three**0.35, other**0.1 if x > 0.0 else base**0.6).left
+
+
 def chosen_constants(x, y):
     limit = math.inf if x > y else 3
     return min(limit, 10.0) + (x == y)
@@ -189,6 +211,8 @@ CONSTRUCTS = (
     whole_numbers,
     named_expression,
     unrolled,
+    quadrature,
+    powers,
     chosen_constants,
     mixed_kinds,
 )
@@ -209,6 +233,27 @@ def test_a_construct_is_the_same_in_c(function, tmp_path):
     pairs = [(x, y) for x in VALUES for y in VALUES] + [(rng.gauss(0, 3), rng.gauss(0, 3)) for _ in range(50)]
     for x, y in pairs:
         assert flat(in_c(x, y)) == approx(flat(function(x, y)), rel=1e-14, abs=0.0), (x, y)
+
+
+def test_elementary_functions_of_nodes_take_arrays(tmp_path):
+    in_c = translated(tmp_path, quadrature, unknown(2))
+    for call in ("own_exps(5, ", "own_asinhs(5, ", "own_pows(5, "):
+        assert in_c.text.count(call) >= 1
+    assert not re.search(r"own_(exp|asinh)\(", in_c.text)
+
+
+def in_turn(x, y):
+    base = abs(x) + 0.5
+    first = base**0.3
+    second = first**1.7
+    apart = (y * y + 1.0) ** 0.6
+    return second + apart
+
+
+def test_powers_are_in_pairs_where_neither_needs_the_other(tmp_path):
+    in_c = translated(tmp_path, in_turn, unknown(2))
+    assert in_c.text.count("own_two_powers(base, 0.3, y * y + 1.0, 0.6)") == 1
+    assert in_c.text.count("own_pow(first, 1.7)") == 1
 
 
 def refusing(x, y):
@@ -289,6 +334,25 @@ def test_functions_that_are_alike_are_written_once(tmp_path):
     in_c = translated(tmp_path, twice, unknown(2))
     assert in_c(2.0, -3.0) == 7.0
     assert in_c.text.count("static double inner") == 1
+
+
+def by_other_names(x, y):
+    return first_of({"left": x, "right": y}) - first_of({"above": y, "below": x}) / first_of({"one": x, "two": x})
+
+
+def first_of(sides):
+    one, other = sides.values()
+    total = one * 2.0
+    if one > 0.0:
+        return total + other
+    return -total
+
+
+def test_functions_that_are_alike_but_for_names_are_written_once(tmp_path):
+    in_c = translated(tmp_path, by_other_names, unknown(2))
+    assert in_c(2.0, -3.0) == by_other_names(2.0, -3.0)
+    assert in_c.text.count("static double first_of(") == 1
+    assert in_c.text.count("static double first_of") == 2  # one body, or both the same
 
 
 def places(x, y):

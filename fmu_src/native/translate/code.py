@@ -8,8 +8,12 @@ from typing import TypeAlias
 
 _NAMES = re.compile(r'"(?:[^"\\]|\\.)*"|(?<![\w.])([A-Za-z_]\w*)')  # outside quotation marks, and no members
 _USES = re.compile(r"\b(?<=struct )\w+|(?<![\w.])\w+(?=\()")  # of functions and structs
+_DECLARES = re.compile(
+    r"(?<=double )(\w+\[\d+\](?:,\s+\w+\[\d+\])*)|(?:\bdouble|\bint|\bstruct \w+)\s+\*?(\w+)\b(?!\()"
+)
 _CTYPES = {"d": "double", "i": "int", "b": "int"}
 _WIDTH = 116
+_QUICK = frozenset({"fabs", "smaller", "larger", "sqrt", "squared", "cubed"})  # functions
 
 
 def c_type(kind: str) -> str:
@@ -104,6 +108,33 @@ Block: TypeAlias = list[Statement]
 def names_in(text: str | None) -> set[str]:
     """Return the names in a piece of C, of r.gap r alone."""
     return set(_NAMES.findall(text)) - {""} if text else set()
+
+
+def takes_long(text: str | None) -> bool:
+    """Return True for an expression that calls a function of more than a few instructions."""
+    return bool(set(re.findall(r"\b(\w+)\(", text or "")) - _QUICK)
+
+
+def closed(text: str, start: int) -> int:
+    """Return where the parenthesis ends that begins before `start`."""
+    depth = 1
+    for place in range(start, len(text)):
+        depth += {"(": 1, ")": -1}.get(text[place], 0)
+        if depth == 0:
+            return place
+    raise AssertionError(f"'{text}' has an open parenthesis")
+
+
+def operands(text: str) -> list[str]:
+    """Return the operands of a call."""
+    found, depth = [""], 0
+    for sign in text:
+        depth += {"(": 1, ")": -1}.get(sign, 0)
+        if sign == "," and depth == 0:
+            found.append("")
+        else:
+            found[-1] += sign
+    return [each.strip() for each in found]
 
 
 def used(block: Block) -> set[str]:
@@ -254,7 +285,7 @@ def wrapped(text: str, depth: int) -> list[str]:
 
 
 def merged(functions: Sequence[tuple[str, str]]) -> list[str]:
-    """Return functions and their structs without those that others equal but for the name; both are given by name."""
+    """Return functions and their structs without those that others equal but for names; both are given by name."""
     whole: dict[str, str] = {}
     for name, text in functions:
         whole[name] = f"{whole[name]}\n\n{text}" if name in whole else text
@@ -262,7 +293,7 @@ def merged(functions: Sequence[tuple[str, str]]) -> list[str]:
     names: dict[str, str] = {}  # of functions that are left out, those of their equals
     for name, text in whole.items():
         own = _renamed(text, names)
-        names[name] = first.setdefault(_renamed(own, {name: "it"}), name)
+        names[name] = first.setdefault(_anonymous(_renamed(own, {name: "it"})), name)
         whole[name] = own
     return [text for name, text in whole.items() if names[name] == name]
 
@@ -270,3 +301,14 @@ def merged(functions: Sequence[tuple[str, str]]) -> list[str]:
 def _renamed(text: str, names: dict[str, str]) -> str:
     """Return a text with functions and structs by other names."""
     return _USES.sub(lambda found: names.get(found[0], found[0]), text)
+
+
+def _anonymous(text: str) -> str:
+    """Return a function with numbers in place of the names that it gives to parameters and variables."""
+    members, function = re.fullmatch(r"(struct \w+ \{.*?\};)?(.*)", text, re.DOTALL).groups()  # type: ignore[union-attr]
+    found = [
+        part for several, one in _DECLARES.findall(function) for part in re.findall(r"\w+(?=\[)", several) or [one]
+    ]
+    numbers = {name: f"_{i}" for i, name in enumerate(dict.fromkeys(found))}
+    renamed = _NAMES.sub(lambda name: numbers.get(name[1], name[0]), function)
+    return (members or "") + " ".join(renamed.split())  # lines end elsewhere

@@ -13,10 +13,10 @@ import numpy as np
 
 from . import code, constants, grid_library, grids
 from .arrays import arrays_in, on_arrays
-from .declarations import declared
 from .expressions import Super
 from .grids import is_array
 from .interpreter import Scope
+from .passes import arranged
 from .results import (
     distinct,
     fields_of,
@@ -31,7 +31,6 @@ from .results import (
     with_alike,
     with_given,
 )
-from .rolled import rolled
 from .sources import about, closure_of, expression_of, is_compiled, is_straight, method_after, statements_of
 from .units import Text, Unit, matched, template_of, unique
 from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
@@ -138,7 +137,8 @@ class Translator:
                 if name in self._keys:
                     found.setdefault(self._keys[name], set())
             for struct, name in re.findall(r"const struct (\w+)\s+(\w+)\s+=", text):
-                found.setdefault(self._keys[struct], set()).update(re.findall(rf"\b{name}\.(\w+)", text))
+                if struct in self._keys:
+                    found.setdefault(self._keys[struct], set()).update(re.findall(rf"\b{name}\.(\w+)", text))
         for entry in entries:
             found.pop(self._keys.get(entry.name), None)
         return found
@@ -406,8 +406,7 @@ class Translator:
             forward = forwarded(unit, holder, parameters)
             if forward is not None:
                 return CFunction(name, [False] * len(parameters), template, fields, False, forward)
-        block = code.pruned(unit.blocks[0], {*unit.outs, *(parameters[i].text for i in sets)})
-        block = declared(rolled(unit, block))
+        block = arranged(unit, unit.blocks[0], {*unit.outs, *(parameters[i].text for i in sets)})
         if not holes and block and isinstance(block[-1], code.Do) and block[-1].text == "return;":
             block.pop()
         names = code.used(block)

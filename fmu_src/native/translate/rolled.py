@@ -1,8 +1,9 @@
 """Loops in place of copies: weighted sums over nodes, with what was written out for each node.
 
 An array of constants meets numbers at run time element by element. Where a sum over its elements follows, such as a
-quadrature, the statements of all elements become loops over static tables: a loop for each call of a function, as a
-processor computes several calls at once if they do not wait for each other.
+quadrature, the statements of all elements become loops over static tables. Elementary functions take whole arrays
+between the loops, two numbers at a time. Other functions have loops of their own, as a processor computes several calls
+at once if they do not wait for each other.
 """
 
 import re
@@ -16,6 +17,13 @@ _NUMBER = r"(?:\d[\d.]*(?:e[-+]?\d+)?|INFINITY)"
 _TERM = re.compile(rf"(-?{_NUMBER}) \* (\w+)")
 _TOKEN = re.compile(rf"(?<![\w.]){_NUMBER}|[A-Za-z_][\w.]*|\s+|.")
 _CALL = re.compile(r"own_\w+\([^()]*\)")  # without another one in it
+# functions of elementary_arrays.h by those of one number, which nodes differ in, and names of what they give
+_OF_ARRAYS = {
+    "own_exp": ("own_exps", "exponential"),
+    "own_pow": ("own_pows", "power"),
+    "own_asinh": ("own_asinhs", "arsinh"),
+}
+_OF_NODES = re.compile(rf"\b({'|'.join(_OF_ARRAYS)})\(")
 
 
 class _Unlike(Exception):  # noqa: N818  # what it is, not that it failed
@@ -61,6 +69,7 @@ class _Nodes:
         self.tables: dict[tuple[str, ...], str] = {}
         self.calls: dict[str, str] = {}
         self.calling: dict[str, bool] = {}  # whether a number in the loop is what a function gives
+        self.takes: dict[str, code.Call] = {}  # functions of arrays, by what they find and leave in it
         self.node = "node"
 
     def loop(self) -> code.Block:
@@ -82,23 +91,51 @@ class _Nodes:
         return kept
 
     def _loops(self) -> code.Block:
-        """Return the loops, and before them arrays of what later ones need."""
+        """Return the loops, between them functions of arrays, and before them arrays of what later ones need."""
         levels: dict[str, int] = {}
         staged: dict[int, code.Block] = {}
-        for each in self.body:
-            assert isinstance(each, code.Let | code.Put)
+        body = [part for each in self.body for part in self._apart(each)]
+        for each in body:
             needs = [n for n in code.names_in(each.value) if n in levels and n != each.name]
             level = max((levels[n] + self.calling[n] for n in needs), default=0)
             levels[each.name] = level
-            self.calling[each.name] = isinstance(each, code.Let) and "(" in (each.value or "")
+            self.calling[each.name] = each.name in self.takes or code.takes_long(each.value)
             staged.setdefault(level, []).append(each)
         late = {name for level, block in staged.items() for name in code.used(block) if levels.get(name, level) < level}
-        arrays = [
-            f"{each.name}[{self.count}]" for each in self.body if isinstance(each, code.Let) and each.name in late
-        ]
+        late |= self.takes.keys()
+        arrays = [f"{each.name}[{self.count}]" for each in body if isinstance(each, code.Let) and each.name in late]
         found: code.Block = [code.Do(f"double {', '.join(arrays)};")] if arrays else []
         head = f"for (int {self.node} = 0; {self.node} < {self.count}; ++{self.node})"
-        return found + [code.Loop(head, [self._placed(each, late) for each in staged[k]]) for k in sorted(staged)]
+        for k in sorted(staged):
+            found.append(code.Loop(head, [self._placed(each, late) for each in staged[k]]))
+            found += [self.takes[name] for each in staged[k] if (name := each.name) in self.takes]  # type: ignore[union-attr]
+        return found
+
+    def _apart(self, statement: code.Statement) -> list[code.Let | code.Put]:
+        """Return a statement as several, of which those before the last give operands to functions of arrays."""
+        assert isinstance(statement, code.Let | code.Put)
+        text = statement.value or ""
+        found: list[code.Let | code.Put] = []
+        while calls := [each for each in _OF_NODES.finditer(text) if self._takes_nodes(text, each.end())]:
+            start, end = calls[-1].start(), code.closed(text, calls[-1].end())  # no other such call is in the last one
+            first, *rest = code.operands(text[calls[-1].end() : end])
+            whole = isinstance(statement, code.Let) and (start, end + 1) == (0, len(text))
+            function, result = _OF_ARRAYS[calls[-1][1]]
+            name = statement.name if whole else self.unit.fresh(result)
+            given = ", ".join([str(self.count), name, *rest])
+            self.takes[name] = code.Call(f"{function}({given});", frozenset({name}))
+            found.append(code.Let("double", name, first))
+            if whole:
+                return found
+            text = f"{text[:start]}{name}{text[end + 1 :]}"
+        statement.value = text
+        return [*found, statement]
+
+    def _takes_nodes(self, text: str, start: int) -> bool:
+        """Return True for a call of which nodes differ in the first operand alone."""
+        _, *rest = code.operands(text[start : code.closed(text, start)])
+        made = {each.name for each in self.body if isinstance(each, code.Let)}
+        return not any(self.node in code.names_in(each) or code.names_in(each) & made for each in rest)
 
     def _placed(self, statement: code.Statement, late: set[str]) -> code.Statement:
         """Return a statement in which numbers that later loops need are in arrays."""

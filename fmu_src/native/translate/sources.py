@@ -54,9 +54,17 @@ def statements_of(node: Any) -> list[ast.stmt]:
 
 
 def is_straight(node: Any) -> bool:
-    """Return True for a function without choices and loops: each element of an array has a copy of it."""
+    """Return True for a function without loops, and with choices by its law alone: each element has a copy of it."""
     *before, last = statements_of(node)
-    return isinstance(last, ast.Return) and all(isinstance(each, ast.Assign) for each in before)
+    return isinstance(last, ast.Return) and all(map(_goes_on, before))
+
+
+def _goes_on(node: ast.stmt) -> bool:
+    """Return True for an assignment, or a choice between some that the parameters of a law decide."""
+    if isinstance(node, ast.If):
+        decides = {each.id for each in ast.walk(node.test) if isinstance(each, ast.Name)}
+        return decides <= {"self"} and all(map(_goes_on, [*node.body, *node.orelse]))
+    return isinstance(node, ast.Assign)
 
 
 def is_compiled(node: Any) -> bool:
