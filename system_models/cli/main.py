@@ -19,6 +19,7 @@ from . import (
     compare,
     completion,
     cosim,
+    docs,
     explain,
     fit,
     listing,
@@ -33,7 +34,7 @@ from . import (
     validate,
 )
 from . import map as mapping
-from .pages import page_of
+from .pages import see
 
 
 class Command(Protocol):
@@ -65,6 +66,7 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "validate": (validate, "compare answers with measurements, published numbers and closed forms"),
     "check": (check, "give a verdict per rule on any FMU"),
     "cosim": (cosim, "simulate a system of FMUs"),
+    "docs": (docs, "list the pages of the documentation, or show one"),
     "completion": (completion, "print a script with which a shell completes all this"),
 }
 
@@ -78,7 +80,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stdout.flush()  # here, so that a closed pipe is seen here and not at exit
         return code
     except ContactError as error:
-        print(f"tribofmu: {error} See {page_of(error, arguments.command_name)}.", file=sys.stderr)
+        print(f"tribofmu: {error}{see(error, arguments.command_name)}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as interrupt:
         print(f"tribofmu: Interrupted. {interrupt}".rstrip(), file=sys.stderr)
