@@ -1,7 +1,6 @@
 """The command `tribofmu fit`: fits constants of a scene to measured numbers."""
 
 import argparse
-import logging
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,6 +9,7 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
 from .console import output_folder
+from .progress import counted
 from .scenes import add_scene, contact, warn
 
 if TYPE_CHECKING:
@@ -88,21 +88,17 @@ def _fitted(
     name: str, scene: Scene, measured: "Measured", constants: "tuple[Constant, ...]", level: str, share: float
 ) -> "Fit":
     """Fit, with a counter of the sets of constants tried."""
-    from tqdm import tqdm
-    from tqdm.contrib.logging import logging_redirect_tqdm
+    from itertools import count
 
     from ..run.fit import fit
 
-    logging.basicConfig(format="%(message)s")
-    bar = tqdm(desc=name, bar_format="{desc}: {n} sets of constants [{elapsed}]")
-
-    def show(stage: str) -> None:
-        bar.set_description_str(f"{name}, {stage}", refresh=False)
-        bar.update()
-
+    tried = count(1)
     try:
-        with bar, logging_redirect_tqdm():
-            return fit(scene, measured, constants, measured.held_back(share), level, show)
+        with counted(name, "sets of constants") as show:
+            held_back = measured.held_back(share)
+            return fit(
+                scene, measured, constants, held_back, level, lambda stage: show(next(tried), f"{name}, {stage}")
+            )
     except KeyboardInterrupt:
         raise KeyboardInterrupt("Nothing was written; the same command fits from the beginning.") from None
 

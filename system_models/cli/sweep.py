@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
 
-from .console import add_settings, output_folder
+from .console import add_settings, note, output_folder
 from .map import executor_arguments, processes_of
+from .progress import counted
 from .scenes import refuse_machine
 
 if TYPE_CHECKING:
@@ -45,11 +46,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Run, print and write the sweep; return the exit code."""
+    refuse_machine(arguments.scene)
+    note(f"Loading '{arguments.scene}'.")
     from ..store.checkpoint import alone
     from ..sweep.plan import plan_of
     from ..sweep.points import Task
 
-    refuse_machine(arguments.scene)
     plan = plan_of(arguments.vary, arguments.samples, arguments.method, arguments.seed)
     if plan.method == "indices" and plan.grid:
         keys = ", ".join(factor.key for factor in plan.grid)
@@ -66,18 +68,11 @@ def _solved(task: "Task", plan: "Plan", processes: int, executor: str | None) ->
     """Run the points, with a counter of them."""
     from math import prod
 
-    from tqdm import tqdm
-
     from ..sweep.points import solved
 
-    bar = tqdm(
-        total=prod(plan.shape),
-        desc=Path(task.scene).stem,
-        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} runs [{elapsed}<{remaining}]",
-    )
     try:
-        with bar:
-            return solved(task, plan, processes, executor, lambda count: bar.update(count - bar.n))
+        with counted(Path(task.scene).stem, "runs", prod(plan.shape)) as show:
+            return solved(task, plan, processes, executor, show)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"Runs are kept in '{task.folder}': the same command goes on from there.") from None
 

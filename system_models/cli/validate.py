@@ -3,6 +3,7 @@
 import argparse
 
 from .console import output_folder
+from .progress import counted, say
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,9 +26,12 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     folder = output_folder(arguments.out, "validation")
     outcomes = {}
-    for name in names:
-        outcomes[name] = registry.outcome(name)
-        print(render(name, comparisons[name], outcomes[name]), end="\n\n", flush=True)
+    with counted("validate", "comparisons", len(names)) as show:
+        for name in names:
+            show(len(outcomes), name)
+            outcomes[name] = registry.outcome(name)
+            say(render(name, comparisons[name], outcomes[name]) + "\n")
+        show(len(outcomes), "validate")
     print(f"{summary(outcomes)}.")
     print(f"Written: {', '.join(map(str, page.write(comparisons, outcomes, folder)))}")
     return 1 if any(found.unexplained for found in outcomes.values()) else 0
