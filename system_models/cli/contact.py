@@ -11,7 +11,7 @@ from contact_core.scene import Scene
 from .console import note, output_folder
 from .overwriting import ask_before
 from .progress import continued_by_resume, note_replaced, shown
-from .scenes import chosen, contact, microroughness, warn
+from .scenes import chosen, contact, microroughness, overrides, warn
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -59,7 +59,7 @@ def _run_in(folder: Path, scene: Scene, duty: "Duty", fields: "Fields | None", a
         return code
     if not checkpoint.saved:
         ask_before(folder, origin.attributes(scene, duty, count), arguments.force)
-        _introduce(scene, duty)
+        _introduce(scene, duty, arguments)
     with continued_by_resume(lambda: checkpoint.file if checkpoint.count else None):
         dataset, errors = _simulate(scene, duty, checkpoint, fields)
         code = _report(dataset, errors, scene, duty, folder, fields)
@@ -96,11 +96,12 @@ def _finished(folder: Path, scene: Scene, duty: "Duty", fields: int) -> int | No
     return 1 if report.invalid_rows(dataset) else 0
 
 
-def _introduce(scene: Scene, duty: "Duty") -> None:
+def _introduce(scene: Scene, duty: "Duty", arguments: argparse.Namespace) -> None:
     """Print what the contact is like, before it is solved."""
     from ..run import trust
 
-    below = [f"Body {body}: {text}." for body, text in enumerate(microroughness(scene), 1)]
+    layers = microroughness(scene, arguments.scene, overrides(arguments))
+    below = [f"Body {body}: {text}." for body, text in enumerate(layers, 1)]
     about = [*trust.before(scene, duty), *trust.wrapped(*chosen(scene), *below)]
     print(*trust.wrapped(scene.description), *about, "", sep="\n", flush=True)
 

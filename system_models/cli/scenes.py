@@ -2,13 +2,14 @@
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
 from contact_core.quantities import UNSOLVED
 from contact_core.scene import Assumed, Scene, told
+from contact_core.scene.origins import Origin, origins
 
 from ..machines import files
 from .console import add_settings, note, refuse_empty
@@ -42,12 +43,12 @@ def contact(arguments: argparse.Namespace) -> "tuple[Scene, Duty]":
     from ..run.duty import Duty
 
     refuse_machine(arguments.scene)
-    overrides = _overrides(arguments)
-    scene, assumed = Scene.read(arguments.scene, overrides)
+    settings = overrides(arguments)
+    scene, assumed = Scene.read(arguments.scene, settings)
     duty = Duty.of_scene(scene, _folder_of_duty(arguments))
     largest = max(point.load for point in duty.points)
     if largest > scene.largest_load and any(each.key == "film.domain" for each in assumed):  # a grid for that load
-        scene, assumed = Scene.read(arguments.scene, overrides | {"operation.largest_load": f"{largest!r} N"})
+        scene, assumed = Scene.read(arguments.scene, settings | {"operation.largest_load": f"{largest!r} N"})
     _ask_back(scene, arguments.force)
     tell_assumed(assumed)
     return duty.sized(scene), duty
@@ -80,19 +81,30 @@ def warn(scene: Scene) -> None:
         print(f"tribofmu: warning: {warning}", file=sys.stderr)
 
 
-def microroughness(scene: Scene) -> tuple[str, str]:
-    """Return a few words for each body on its roughness below the grid."""
+def microroughness(scene: Scene, source: str, settings: Mapping[str, str]) -> tuple[str, str]:
+    """Return a few words for each body on its roughness below the grid, and where its value is from.
+
+    source, settings: what the scene was read from.
+    """
     layers = [surface.microroughness for surface in (scene.surface_1, scene.surface_2)]
     bare = not any(layer and layer.rms > 0.0 for layer in layers)
     none = "no microroughness" + (": solids touch at the floor" if bare else "")
+    found = {} if bare else origins(source, scene.to_dict(), settings)
     first, second = (
         f"microroughness {1e9 * layer.rms:.3g} nm rms, waves below {1e6 * layer.longest:.3g} um "
-        "(assumed in shipped scenes)"
+        f"({_from(found[f'surface_{body}.microroughness.rms'])})"
         if layer and layer.rms > 0.0
         else none
-        for layer in layers
+        for body, layer in enumerate(layers, 1)
     )
     return first, second
+
+
+def _from(origin: Origin) -> str:
+    """Return where a value is from, in a few words."""
+    if origin.set_name:
+        return f"{origin.source or origin.remark or 'without a source'}; set {origin.set_name}"
+    return origin.remark or origin.source or f"from {origin.kind.value}, without a source"
 
 
 def chosen(scene: Scene) -> list[str]:
@@ -108,7 +120,8 @@ def chosen(scene: Scene) -> list[str]:
     ]
 
 
-def _overrides(arguments: argparse.Namespace) -> dict[str, str]:
+def overrides(arguments: argparse.Namespace) -> dict[str, str]:
+    """Return the changes of a scene's keys by --set, and by the options that stand for some of them."""
     refuse_empty(arguments)
     settings = dict(arguments.settings)
     if getattr(arguments, "hours", None):

@@ -1,9 +1,13 @@
 """The command `tribofmu validate`: answers beside measurements, published numbers, closed forms and a thesis."""
 
 import argparse
+from typing import TYPE_CHECKING
 
 from .console import output_folder
 from .progress import counted, say
+
+if TYPE_CHECKING:
+    from ..validation.model import Outcome
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,7 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"{name:14}  {compared.kind:20}  {compared.title}. {compared.source}")
         return 0
     folder = output_folder(arguments.out, "validation")
-    outcomes = {}
+    outcomes: dict[str, Outcome] = {}
     with counted("validate", "comparisons", len(names)) as show:
         for name in names:
             show(len(outcomes), name)
