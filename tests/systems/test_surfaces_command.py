@@ -71,7 +71,9 @@ def test_microroughness_of_a_measured_set_is_not_called_assumed(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     layer = 'microroughness = { rms = "3 nm", longest = "4 um" }  # waves that the image resolves'
-    Path("disc.toml").write_text(f'[disc.surface_2]  # measured: Zygo\nrq = "50 nm"\n{layer}\n', "utf-8")
+    Path("disc.toml").write_text(
+        f'[disc.surface_2]  # measured: Zygo\nmodel = "gaussian"\nrq = "50 nm"\n{layer}\n', "utf-8"
+    )
     given = ["surface_2.set=disc.toml:disc", "surface_1.microroughness.rms=2 nm"]
     assert main(["surfaces", "mtm_zddp", "--set", *given]) == 0
     out = capsys.readouterr().out
