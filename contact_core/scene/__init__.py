@@ -14,6 +14,7 @@
     checks      what makes a scene or an operating point unusable
     plausibility  numbers that look like mistakes
     toml        TOML to records and back
+    other_names  names that the field has for keys of a scene
     in_use      the laws that a scene uses, with their equations
     origins     where each value of a scene comes from
     problems    everything that is wrong with a table, in one refusal

@@ -16,6 +16,7 @@ from ..laws import SLOTS
 from ..laws.base import Model
 from ..shapes import GEOMETRIES
 from . import units
+from .other_names import meant
 from .problems import Missing, TableError
 from .records import ACCURACY, CHOSEN
 from .self_affine import SelfAffine
@@ -103,7 +104,8 @@ def folder_of(source: str | Path) -> Path:
 
 def did_you_mean(word: str, choices: list[str]) -> str:
     """Return " Did you mean ...?" if one of the choices looks like the word, else nothing."""
-    close = difflib.get_close_matches(word, choices, n=1, cutoff=0.5)
+    close = [name for name in choices if name.lower() == word.lower()]
+    close += difflib.get_close_matches(word, choices, n=1, cutoff=0.6)
     return f" Did you mean '{close[0]}'?" if close else ""
 
 
@@ -153,12 +155,15 @@ def build(cls: type, table: Any, path: str) -> Any:
     table = with_named_set(dict(table), path)
     known, hints = {f.name: f for f in fields(cls)}, get_type_hints(cls)
     problems = TableError()
+    asked: set[str] = set()  # keys that sentences on unknown ones ask for
     for key in table:
         if key not in known:
             where = f"[{path}]" if path else "The scene"
             keys = [*(["model"] if cls in models_of(path) else []), *known]
-            other = _elsewhere(cls, key, path) or did_you_mean(key, keys)
-            hint = _inside(hints, key, path) or f"{other} Known are {', '.join(keys)}."
+            hint = _elsewhere(cls, key, path) or _inside(hints, key, path)
+            if other := meant(path, key):
+                hint, asked = f" {other.sentence}", asked | {*other.keys}
+            hint = hint or f"{did_you_mean(key, keys)} Known are {', '.join(keys)}."
             problems.wrong.append(f"{where} has no key '{key}'.{hint}")
     values = {}
     for name, f in known.items():
@@ -166,7 +171,7 @@ def build(cls: type, table: Any, path: str) -> Any:
         if name in table:
             with problems.collected():
                 values[name] = _value(hints[name], table[name], full, f)
-        elif f.default is MISSING:
+        elif f.default is MISSING and name not in asked:
             problems.missing.append(_missing(full, f))
     problems.refuse()
     return cls(**values)

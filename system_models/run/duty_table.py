@@ -16,6 +16,7 @@ from pathlib import Path
 from contact_core.errors import SceneError
 from contact_core.quantities import Quantity, value_out_of_range
 from contact_core.scene import units
+from contact_core.scene.other_names import meant
 from contact_core.scene.toml import did_you_mean
 
 Row = tuple[float, dict[str, float]]  # time [s] and values by signal
@@ -87,6 +88,9 @@ def _columns(header: list[str], where: str, signals: Mapping[str, Quantity]) -> 
             )
         name, unit = match[1], match[2].strip()
         if name not in signals:
+            other = meant("operation", name)
+            if other and {*other.keys} & signals.keys():
+                raise SceneError(f"{where}: there is no column '{name}'. {other.sentence}")
             raise SceneError(
                 f"{where}: there is no column '{name}'.{did_you_mean(name, list(signals))} "
                 f"Known are {', '.join(signals)}."
