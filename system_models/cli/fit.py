@@ -1,14 +1,17 @@
 """The command `tribofmu fit`: fits constants of a scene to measured numbers."""
 
 import argparse
+import json
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
-from .console import output_folder
+from .console import note, output_folder
+from .overwriting import refuse_existing
 from .progress import counted
 from .scenes import add_scene, contact, warn
 
@@ -66,6 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
     folder = output_folder(arguments.out, name)
     warn(scene)
     with alone(folder):
+        _ask_before(folder, name, {"data": measured.source, "scene": scene.name}, arguments.force)
         found = _fitted(name, scene, measured, constants, arguments.level, share)
         return _report(found, name, folder)
 
@@ -82,6 +86,22 @@ def _name(arguments: argparse.Namespace) -> str:
     if not _NAME.match(name):
         raise ContactError(f"--name = '{name}' must be of letters, digits, '_' and '-'.")
     return name
+
+
+def _ask_before(folder: Path, name: str, origin: Mapping[str, str], force: bool) -> None:
+    """Say what fit in a folder is replaced. Raises ContactError if it is of other data or another scene."""
+    path = folder / "fit.json"
+    try:
+        before = json.loads(path.read_text("utf-8"))
+    except (OSError, ValueError):
+        refuse_existing([folder / f"{name}.toml"], force)
+        return
+    if not force and not origin.items() <= before.items():
+        raise ContactError(
+            f"'{path}' is the fit to '{before.get('data')}' in scene '{before.get('scene')}', and this is to "
+            f"'{origin['data']}' in '{origin['scene']}'. Use another --out, or --force to replace it."
+        )
+    note(f"'{path}', an earlier fit, will be replaced. To keep it, stop and use another --out.")
 
 
 def _fitted(

@@ -7,8 +7,9 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from .console import note, output_folder, refuse_empty
+from .overwriting import refuse_existing
 from .progress import counted, shown
-from .scenes import tell_assumed
+from .scenes import ask_back, tell_assumed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,14 +24,16 @@ if TYPE_CHECKING:
 def run(arguments: argparse.Namespace) -> int:
     """Carry out the command and return the exit code. Raises ContactError with a sentence if it cannot."""
     note(f"Loading '{arguments.scene}'; its report comes at the end.")
-    from ..machines import reading, tables, timeline
+    from ..machines import plausibility, reading, tables, timeline
 
     machine = reading.read(arguments.scene, _changes(arguments))
     if arguments.duty:
         machine.table["duty"] = timeline.with_file(machine.table.get("duty", {}), Path(arguments.duty).absolute())
     assembly = reading.assemble(machine)
+    ask_back(plausibility.doubts(machine, assembly), arguments.force)
     tell_assumed(tables.scene_and_assumed(machine.table)[1])
     if arguments.ssp:
+        refuse_existing([Path(arguments.ssp)], arguments.force)
         return _export(assembly, arguments.ssp, arguments.flavour or "isolated")
     folder = output_folder(arguments.out, machine.name)
     return _run_in(folder, assembly, machine, arguments)

@@ -9,8 +9,9 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
 from .console import add_settings, note, output_folder
+from .overwriting import add_force
 from .progress import counted
-from .scenes import refuse_machine, tell_assumed, warn
+from .scenes import ask_back, refuse_machine, tell_assumed, warn
 
 if TYPE_CHECKING:
     from ..run.map_build import Built, Order
@@ -41,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         ("--radius-x", "radii along entrainment of rollers and lines, such as '5 mm:12 mm', alone that of the scene"),
     ):
         parser.add_argument(option, metavar="LOW:HIGH", help=f"{text} (default: about the scene's operation)")
+    add_force(parser)
     add_settings(parser, "change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'")
 
 
@@ -71,6 +73,10 @@ def run(arguments: argparse.Namespace) -> int:
         _seconds(arguments.time),
         processes_of(arguments.processes),
         arguments.executor,
+    )
+    ask_back(
+        scene.doubts([("operation", scene.operation.point), ("The map's range", order.ranges.extreme())]),
+        arguments.force,
     )
     folder = output_folder(arguments.out, scene.name)
     warn(scene)

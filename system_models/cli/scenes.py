@@ -49,7 +49,7 @@ def contact(arguments: argparse.Namespace) -> "tuple[Scene, Duty]":
     largest = max(point.load for point in duty.points)
     if largest > scene.largest_load and any(each.key == "film.domain" for each in assumed):  # a grid for that load
         scene, assumed = Scene.read(arguments.scene, settings | {"operation.largest_load": f"{largest!r} N"})
-    _ask_back(scene, arguments.force)
+    ask_back(scene.doubts(duty.named(scene)), arguments.force)
     tell_assumed(assumed)
     return duty.sized(scene), duty
 
@@ -60,9 +60,8 @@ def tell_assumed(assumed: Sequence[Assumed]) -> None:
         note(told(assumed))
 
 
-def _ask_back(scene: Scene, force: bool) -> None:
+def ask_back(doubts: Sequence[str], force: bool) -> None:
     """Raise ContactError for numbers that look like mistakes, unless `force`d; then warn."""
-    doubts = scene.doubts()
     if doubts and not force:
         raise ContactError(f"{' '.join(doubts)} If this is meant, add --force.")
     for doubt in doubts:

@@ -13,7 +13,7 @@ from contact_core.scene import Scene, units
 from .console import output_folder
 from .overwriting import ask_before
 from .progress import counted
-from .scenes import add_scene, contact, warn
+from .scenes import add_scene, ask_back, contact, warn
 
 if TYPE_CHECKING:
     from ..run.duty import Duty
@@ -57,6 +57,8 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.points,
         _slide_roll_ratio(arguments.srr),
     )
+    swept = ((f"The sweep at {speed:.3g} m/s", plan.point(speed)) for speed in plan.speeds)
+    ask_back(scene.doubts(swept), arguments.force)
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
     warn(scene)
     _introduce(scene, plan)

@@ -8,6 +8,7 @@ from contact_core.errors import ContactError
 from contact_core.scene import units
 
 from .console import output_folder
+from .overwriting import add_force, refuse_existing
 
 _NAME = re.compile(r"[a-z0-9_-]+$")
 _FORMS = ("none", "plane", "curvature")
@@ -51,6 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--unit", metavar="UNIT", help="of a file that does not say its own: m, mm, um, nm")
     parser.add_argument("--size", metavar=("X", "Y"), nargs=2, help="of a file that does not say it: '1 mm' '1 mm'")
     parser.add_argument("--out", metavar="NAME", help="writes NAME.npy and NAME.toml (default: the name of FILE)")
+    add_force(parser, "replace files that are there already")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -58,6 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..instruments import patch, surface_file, surface_set
 
     folder, name = _out(arguments)
+    refuse_existing([folder / f"{name}.npy", folder / f"{name}.toml"], arguments.force)
     size = tuple(_length(text, "--size") for text in arguments.size) if arguments.size else None
     image = surface_file.read(Path(arguments.file), arguments.unit, size)  # type: ignore[arg-type]
     if arguments.window:

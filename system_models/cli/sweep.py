@@ -8,6 +8,7 @@ from contact_core.errors import ContactError
 
 from .console import add_settings, note, output_folder
 from .map import executor_arguments, processes_of
+from .overwriting import add_force, ask_before
 from .progress import counted
 from .scenes import refuse_machine
 
@@ -41,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", metavar="S", type=int, default=1, help="of the samples (default: %(default)s)")
     parser.add_argument("--out", metavar="DIR", help="folder of the results (default: results/NAME_sweep)")
     executor_arguments(parser, "runs")
+    add_force(parser)
     add_settings(parser, "change values of the scene at every point, e.g. film.model=regression")
 
 
@@ -50,7 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
     note(f"Loading '{arguments.scene}'.")
     from ..store.checkpoint import alone
     from ..sweep.plan import plan_of
-    from ..sweep.points import Task
+    from ..sweep.points import Task, origin_of
 
     plan = plan_of(arguments.vary, arguments.samples, arguments.method, arguments.seed)
     if plan.method == "indices" and plan.grid:
@@ -58,8 +60,11 @@ def run(arguments: argparse.Namespace) -> int:
         raise ContactError(f"--method indices varies ranges alone: give {keys} as LOW:HIGH, or by --set.")
     folder = output_folder(arguments.out, f"{Path(arguments.scene).stem}_sweep")
     duty = Path(arguments.scene).parent if arguments.scene.endswith(".toml") else Path()
-    task = Task(arguments.scene, tuple(arguments.settings), duty, output_folder(str(folder / "points"), ""))
+    task = Task(
+        arguments.scene, tuple(arguments.settings), duty, output_folder(str(folder / "points"), ""), arguments.force
+    )
     with alone(folder):
+        ask_before(folder, origin_of(task, plan), arguments.force, "sweep")
         outcomes = _solved(task, plan, processes_of(arguments.processes), arguments.executor)
         return _report(task, plan, outcomes, folder)
 

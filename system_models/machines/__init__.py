@@ -7,6 +7,7 @@ Each kind is a folder with its wiring, own parts, report and shipped files; `reg
     reading         a TOML file as an Assembly; tables: its tables as records
     timeline        the duty of a machine
     assembly        a machine's contacts, parts, connections and schedule; builds the FMUs
+    plausibility    numbers that look like mistakes
     report          costs, levels, invalid rows, stored heat
     resolve         contact states of a finished run, solved again deterministically
     corrected       friction, film and W_c of a run corrected by these states
