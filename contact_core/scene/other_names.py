@@ -56,7 +56,7 @@ _TABLES: dict[str, tuple[tuple[str, Meant], ...]] = {
         ),
         ("d diameter ball_diameter", Meant(f"Give 'radius_x', half of it: the {_RADIUS}.", ("radius_x",))),
         ("ry r_y", Meant(f"Did you mean 'radius_y'? It is the {_RADIUS}, across the motion.", ("radius_y",))),
-        ("l length width face_width", Meant("The length of a line contact is 'width' in [film].", ())),
+        ("l length width", Meant("The length of a line contact is 'face_width' of model = 'line' or 'roller'.", ())),
     ),
     "operation": (
         ("u1 u_1 v1 v_1 speed1 velocity1 velocity_1", Meant("Did you mean 'speed_1'?", ("speed_1",))),
