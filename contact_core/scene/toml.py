@@ -31,6 +31,7 @@ _KINDS: dict[str, tuple[type[Model], ...]] = {
 _USUAL = {"geometry", "surface_1", "surface_2"}  # without a `model`: the first kind
 _UNNAMED = Surface  # its tables have never had a `model`, and stored states go by their text
 _DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data sheet"
+_TOO = {"operation.duration": " `tribofmu run` takes it as --hours, too."}
 _SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
 
 
@@ -60,12 +61,12 @@ def text_of(source: str | Path, kind: str = "scene") -> str:
         if shipped.is_file():
             return shipped.read_text("utf-8")
     except OSError as error:
-        raise SceneError(f"The {kind} file '{source}' cannot be read: {error.strerror}.") from None
+        raise SceneError(f"The {kind} file '{source}' cannot be read: {error.strerror}.{file_like(path)}") from None
     except UnicodeDecodeError as error:
         raise SceneError(f"The {kind} file '{source}' is not valid TOML: {error}.") from None
     names = list(shipped_scenes())
     raise SceneError(
-        f"There is no scene '{source}'.{did_you_mean(str(source), names)} Shipped are "
+        f"There is no scene '{source}'.{file_like(Path(f'{source}.toml')) or did_you_mean(str(source), names)} Shipped are "
         f"{', '.join(names)}; or give the path of a .toml file."
     )
 
@@ -107,6 +108,11 @@ def did_you_mean(word: str, choices: list[str]) -> str:
     close = [name for name in choices if name.lower() == word.lower()]
     close += difflib.get_close_matches(word, choices, n=1, cutoff=0.6)
     return f" Did you mean '{close[0]}'?" if close else ""
+
+
+def file_like(path: Path) -> str:
+    """Return " Did you mean ...?" if a file of this kind in the same folder is called much like it, else nothing."""
+    return did_you_mean(str(path), sorted(map(str, path.parent.glob(f"*{path.suffix}"))))
 
 
 def models_of(path: str) -> tuple[type[Model], ...]:
@@ -348,7 +354,7 @@ def _missing(full: str, f: "Field[Any]") -> Missing:
     if "unit" in f.metadata:
         unit, text = f.metadata["unit"], f"{f.metadata['text']}{instead}"
         unit = f" [{unit}]" if unit else ""
-        return Missing(full, f"{unit} ({text})".strip(), f"Give it{unit}: {text}.")
+        return Missing(full, f"{unit} ({text})".strip(), f"Give it{unit}: {text}.{_TOO.get(full, '')}")
     if models:
         sheet = f"{_DATA_SHEET}, or " if full == "lubricant.viscosity" else ""
         text = f"{sheet}a 'model': {', '.join(law.name for law in models)}{instead}"

@@ -7,11 +7,14 @@ has gone, as in `tribofmu list | head`.
 
 import argparse
 import os
+import re
 import sys
 from collections.abc import Sequence
-from typing import Protocol
+from typing import NoReturn, Protocol
 
+import contact_core
 from contact_core.errors import ContactError
+from contact_core.scene.toml import did_you_mean
 
 from . import (
     build,
@@ -74,7 +77,15 @@ COMMANDS: dict[str, tuple[Command, str]] = {
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
     parser = _parser()
-    arguments = parser.parse_args(argv, argparse.Namespace(parser=parser))
+    arguments, unknown = parser.parse_known_args(argv, argparse.Namespace(parser=parser))
+    if "command" not in arguments and not unknown:
+        parser.print_help(sys.stderr)
+        return 2
+    if unknown:
+        own = getattr(arguments, "own_parser", parser)
+        own.error(
+            f"unrecognized arguments: {' '.join(unknown)}{did_you_mean(unknown[0], [*own._option_string_actions])}"
+        )
     try:
         code = int(arguments.command(arguments))
         sys.stdout.flush()  # here, so that a closed pipe is seen here and not at exit
@@ -90,17 +101,31 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 141
 
 
+class _Parser(argparse.ArgumentParser):
+    """Refuses a command that is not there with one like it."""
+
+    def error(self, message: str) -> NoReturn:
+        """End the program with a sentence on the arguments."""
+        wrong = re.match(r"argument COMMAND: invalid choice: '(.*?)'", message)
+        if wrong:
+            message = f"there is no command '{wrong[1]}'.{did_you_mean(wrong[1], list(COMMANDS))} `tribofmu` lists them"
+        super().error(message)
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="tribofmu",
         description="Contacts with mixed lubrication, tribofilm and wear: run them, build FMUs of them, check and "
         "couple any FMUs.",
+        epilog="To start: `tribofmu run mtm_zddp`, or a scene of your own by `tribofmu new mine`; "
+        "`tribofmu docs getting_started` explains both, `tribofmu COMMAND --help` a command.",
     )
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    parser.add_argument("--version", action="version", version=f"tribofmu {contact_core.__version__}")
+    commands = parser.add_subparsers(metavar="COMMAND", parser_class=argparse.ArgumentParser)
     for name, (module, text) in COMMANDS.items():
         command = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
         module.add_arguments(command)
-        command.set_defaults(command=module.run, command_name=name)
+        command.set_defaults(command=module.run, command_name=name, own_parser=command)
     return parser
 
 

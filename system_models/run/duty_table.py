@@ -17,7 +17,7 @@ from contact_core.errors import SceneError
 from contact_core.quantities import Quantity, value_out_of_range
 from contact_core.scene import units
 from contact_core.scene.other_names import meant
-from contact_core.scene.toml import did_you_mean
+from contact_core.scene.toml import did_you_mean, file_like
 
 Row = tuple[float, dict[str, float]]  # time [s] and values by signal
 
@@ -64,7 +64,7 @@ def _lines(path: Path, kind: str) -> list[tuple[int, list[str]]]:
             reader = csv.reader(file)
             lines = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
     except OSError as error:
-        raise SceneError(f"The {kind} file '{path}' cannot be read: {error.strerror}.") from None
+        raise SceneError(f"The {kind} file '{path}' cannot be read: {error.strerror}.{file_like(path)}") from None
     except (UnicodeDecodeError, csv.Error) as error:
         raise SceneError(f"The {kind} file '{path}' is not a CSV file in UTF-8: {error}.") from None
     if len(lines) < 2:
