@@ -71,7 +71,7 @@ def _of_motion(name: str, point: OperatingPoint) -> str:
 def _of_film(scene: SceneFields, name: str, point: OperatingPoint) -> str:
     oil, modulus = scene.lubricant.viscosity, scene.solids.reduced_modulus
     speed, shape, warm = abs(point.entrainment_speed), scene.shape(point), point.inlet_temperature
-    if point.load == 0.0 or speed == 0.0:
+    if point.load <= 0.0 or speed == 0.0:  # what cannot be is refused elsewhere
         return ""
     hertz = shape.hertz(point.load, modulus)
     film = shape.smooth(point.load, speed, oil, warm, modulus).film

@@ -65,9 +65,9 @@ def text_of(source: str | Path, kind: str = "scene") -> str:
     except UnicodeDecodeError as error:
         raise SceneError(f"The {kind} file '{source}' is not valid TOML: {error}.") from None
     names = list(shipped_scenes())
+    like = file_like(Path(f"{source}.toml")) or did_you_mean(str(source), names)
     raise SceneError(
-        f"There is no scene '{source}'.{file_like(Path(f'{source}.toml')) or did_you_mean(str(source), names)} Shipped are "
-        f"{', '.join(names)}; or give the path of a .toml file."
+        f"There is no scene '{source}'.{like} Shipped are {', '.join(names)}; or give the path of a .toml file."
     )
 
 

@@ -83,9 +83,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     if unknown:
         own = getattr(arguments, "own_parser", parser)
-        own.error(
-            f"unrecognized arguments: {' '.join(unknown)}{did_you_mean(unknown[0], [*own._option_string_actions])}"
-        )
+        options = [option.lstrip("-") for option in own._option_string_actions]
+        like = did_you_mean(unknown[0].lstrip("-"), options).replace("'", "'--", 1)
+        own.error(f"unrecognized arguments: {' '.join(unknown)}.{like}")
     try:
         code = int(arguments.command(arguments))
         sys.stdout.flush()  # here, so that a closed pipe is seen here and not at exit

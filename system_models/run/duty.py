@@ -58,10 +58,10 @@ class Duty:
 
     def named(self, scene: Scene) -> Iterator[tuple[str, OperatingPoint]]:
         """Yield the operating points with words for where a scene has them: its [operation], a step, or a row."""
-        steps = ["operation", *(f"operation.steps[{i}]" for i in range(len(scene.operation.steps)))]
+        file = scene.operation.file
         for i, (time, point) in enumerate(zip(self.times, self.points, strict=True)):
-            file = scene.operation.file
-            yield f"Row {i + 1} of '{file}' (at {time:g} s)" if file else steps[i], point
+            step = f"operation.steps[{i - 1}]" if i else "operation"
+            yield f"Row {i + 1} of '{file}' (at {time:g} s)" if file else step, point
 
     def at(self, time: float) -> OperatingPoint:
         """Return the operating point held from `time` [s] on."""

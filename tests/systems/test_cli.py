@@ -158,7 +158,7 @@ def test_bad_input_is_refused_with_one_sentence_and_code_2(
             ["run", "mtm_zddp", "--hour", "3", "--dutty", "x.csv"],
             "unrecognized arguments: --dutty x.csv. Did you mean '--duty'?",
         ),
-        (["run", "mtm_zddp", "--colour", "3"], "unrecognized arguments: --colour 3.\n"),
+        (["run", "mtm_zddp", "--nonsense", "3"], "unrecognized arguments: --nonsense 3.\n"),
     ],
 )
 def test_a_mistyped_command_or_option_is_answered_with_one_like_it(
