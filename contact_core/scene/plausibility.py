@@ -22,12 +22,12 @@ def doubts(scene: SceneFields, points: Iterable[Named] | None = None) -> list[st
     points: names and values of operating points (default: those of the scene). Of several that are doubted for the
     same reason the first is told.
     """
-    named: dict[OperatingPoint, str] = {}
+    first: dict[OperatingPoint, str] = {}
     for name, point in duty_points(scene) if points is None else points:
-        named.setdefault(point, name)
-    motions = [said for point, name in named.items() if (said := _of_motion(name, point))]
-    films = [said for point, name in named.items() if (said := _of_film(scene, name, point))]
-    return [*of_roughness(scene), *_first(motions), *_first(films)]
+        first.setdefault(point, name)
+    named = [(name, point) for point, name in first.items()]
+    motions = [said for name, point in named if (said := _of_motion(name, point))]
+    return [*of_roughness(scene), *_first(motions), *_first([*_of_films(scene, named)])]
 
 
 def _first(found: list[str]) -> list[str]:
@@ -68,17 +68,17 @@ def _of_motion(name: str, point: OperatingPoint) -> str:
     )
 
 
-def _of_film(scene: SceneFields, name: str, point: OperatingPoint) -> str:
+def _of_films(scene: SceneFields, named: Iterable[Named]) -> Iterator[str]:
     oil, modulus = scene.lubricant.viscosity, scene.solids.reduced_modulus
-    speed, shape, warm = abs(point.entrainment_speed), scene.shape(point), point.inlet_temperature
-    if point.load <= 0.0 or speed == 0.0:  # what cannot be is refused elsewhere
-        return ""
-    hertz = shape.hertz(point.load, modulus)
-    film = shape.smooth(point.load, speed, oil, warm, modulus).film
-    if film <= 2.0 * min(hertz.a, hertz.b):
-        return ""
-    return (
-        f"{name}: the film of smooth bodies would be {film:.2g} m thick in a contact only {2 * hertz.a:.2g} m long. "
-        f"Are load ({point.load:g} N), speeds ({speed:g} m/s), radius_x ({shape.radius_x:g} m) and the oil's "
-        f"viscosity ({float(oil(0.0, warm)):.3g} Pa s) in the right units?"
-    )
+    for name, point in named:
+        speed, shape, warm = abs(point.entrainment_speed), scene.shape(point), point.inlet_temperature
+        if point.load <= 0.0 or speed == 0.0:  # what cannot be is refused elsewhere
+            continue
+        hertz = shape.hertz(point.load, modulus)
+        film = shape.smooth(point.load, speed, oil, warm, modulus).film
+        if film > 2.0 * min(hertz.a, hertz.b):
+            yield (
+                f"{name}: the film of smooth bodies would be {film:.2g} m thick in a contact only {2 * hertz.a:.2g} m "
+                f"long. Are load ({point.load:g} N), speeds ({speed:g} m/s), radius_x ({shape.radius_x:g} m) and the "
+                f"oil's viscosity ({float(oil(0.0, warm)):.3g} Pa s) in the right units?"
+            )

@@ -162,6 +162,7 @@ def build(cls: type, table: Any, path: str) -> Any:
     known, hints = {f.name: f for f in fields(cls)}, get_type_hints(cls)
     problems = TableError()
     asked: set[str] = set()  # keys that sentences on unknown ones ask for
+    said = ""  # the last of these
     for key in table:
         if key not in known:
             where = f"[{path}]" if path else "The scene"
@@ -169,7 +170,9 @@ def build(cls: type, table: Any, path: str) -> Any:
             hint = _elsewhere(cls, key, path) or _inside(hints, key, path)
             if other := meant(path, key):
                 hint, asked = f" {other.sentence}", asked | {*other.keys}
-            hint = hint or f"{did_you_mean(key, keys)} Known are {', '.join(keys)}."
+                hint, said = ("" if hint == said else hint), hint
+            elif not hint:
+                hint = f"{did_you_mean(key, keys)} Known are {', '.join(keys)}."
             problems.wrong.append(f"{where} has no key '{key}'.{hint}")
     values = {}
     for name, f in known.items():

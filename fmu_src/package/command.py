@@ -1,9 +1,11 @@
 """The command line that builds an FMU: build_fmu.py, and `tribofmu build`. Light to import."""
 
 import argparse
+import os
 import sys
 import zipfile
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from shutil import which
 from xml.etree import ElementTree
@@ -102,7 +104,12 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _ask_before(out: Path, scene: Scene, force: bool) -> None:
-    """Say that a file is replaced. Raises SceneError if it is not an FMU of this scene, unless `force`d."""
+    """Say that a file is replaced. Raises SceneError if it cannot be, or is no FMU of this scene, unless `force`d."""
+    folder = out.absolute().parent
+    with suppress(OSError):
+        folder.mkdir(parents=True, exist_ok=True)
+    if not os.access(folder, os.W_OK):
+        raise SceneError(f"The folder '{out.parent}' cannot be written to. Use another --out.")
     if not out.is_file():
         return
     before = _description(out)

@@ -79,6 +79,16 @@ def test_what_the_sentence_asks_for_is_not_called_missing_again() -> None:
         Scene.from_dict(both)
 
 
+def test_two_names_that_mean_the_same_keys_are_answered_once() -> None:
+    table = copy.deepcopy(TABLE)
+    del table["operation"]["speed_1"], table["operation"]["speed_2"]
+    table["operation"] |= {"speed": "1 m/s", "srr": "10 %"}
+    with pytest.raises(SceneError) as refused:
+        Scene.from_dict(table)
+    assert str(refused.value).count("Give 'speed_1' and 'speed_2'") == 1
+    assert str(refused.value).endswith("[operation] has no key 'srr'.")
+
+
 def test_a_name_of_no_key_is_answered_with_all_keys_and_nothing_far_off() -> None:
     sentence = refusal("operation", "load", "colour")
     assert "Did you mean" not in sentence
