@@ -15,6 +15,7 @@
     plausibility  numbers that look like mistakes
     toml        TOML to records and back
     ensemble    several files or seeds of a surface, of which each makes a scene
+    other_names  names that the field has for keys of a scene
     in_use      the laws that a scene uses, with their equations
     origins     where each value of a scene comes from
     problems    everything that is wrong with a table, in one refusal

@@ -1,7 +1,7 @@
 """The scene: a frozen record of a contact and its physics, read from TOML and checked before anything is computed."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields, replace
 from numbers import Real
 from pathlib import Path
@@ -125,9 +125,12 @@ class Scene(SceneFields):
         """Return sentences on what can be computed but is not resolved well."""
         return checks.warnings(self)
 
-    def doubts(self) -> list[str]:
-        """Return sentences on numbers that look like mistakes, which the commands ask back before they run."""
-        return plausibility.doubts(self)
+    def doubts(self, points: Iterable[tuple[str, OperatingPoint]] | None = None) -> list[str]:
+        """Return sentences on numbers that look like mistakes, which the commands ask back before they run.
+
+        points: names and values of the operating points to doubt (default: those of the scene).
+        """
+        return plausibility.doubts(self, points)
 
 
 def _built(table: Mapping[str, Any], folders: tuple[Path, ...]) -> tuple[Scene, tuple[Assumed, ...]]:

@@ -17,6 +17,7 @@ from ..laws.base import Model
 from ..laws.offered import laws_of
 from ..shapes import GEOMETRIES
 from . import ensemble, units
+from .other_names import meant
 from .problems import Missing, TableError
 from .records import ACCURACY, CHOSEN
 from .self_affine import SelfAffine
@@ -31,6 +32,7 @@ _KINDS: dict[str, tuple[type[Model], ...]] = {
 _USUAL = {"geometry", "surface_1", "surface_2"}  # without a `model`: the first kind
 _UNNAMED = Surface  # its tables have never had a `model`, and stored states go by their text
 _DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data sheet"
+_TOO = {"operation.duration": " `tribofmu run` takes it as --hours, too."}
 _SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
 
 
@@ -60,13 +62,13 @@ def text_of(source: str | Path, kind: str = "scene") -> str:
         if shipped.is_file():
             return shipped.read_text("utf-8")
     except OSError as error:
-        raise SceneError(f"The {kind} file '{source}' cannot be read: {error.strerror}.") from None
+        raise SceneError(f"The {kind} file '{source}' cannot be read: {error.strerror}.{file_like(path)}") from None
     except UnicodeDecodeError as error:
         raise SceneError(f"The {kind} file '{source}' is not valid TOML: {error}.") from None
     names = list(shipped_scenes())
+    like = file_like(Path(f"{source}.toml")) or did_you_mean(str(source), names)
     raise SceneError(
-        f"There is no scene '{source}'.{did_you_mean(str(source), names)} Shipped are "
-        f"{', '.join(names)}; or give the path of a .toml file."
+        f"There is no scene '{source}'.{like} Shipped are {', '.join(names)}; or give the path of a .toml file."
     )
 
 
@@ -118,8 +120,14 @@ def folder_of(source: str | Path) -> Path:
 
 def did_you_mean(word: str, choices: list[str]) -> str:
     """Return " Did you mean ...?" if one of the choices looks like the word, else nothing."""
-    close = difflib.get_close_matches(word, choices, n=1, cutoff=0.5)
+    close = [name for name in choices if name.lower() == word.lower()]
+    close += difflib.get_close_matches(word, choices, n=1, cutoff=0.6)
     return f" Did you mean '{close[0]}'?" if close else ""
+
+
+def file_like(path: Path) -> str:
+    """Return " Did you mean ...?" if a file of this kind in the same folder is called much like it, else nothing."""
+    return did_you_mean(str(path), sorted(map(str, path.parent.glob(f"*{path.suffix}"))))
 
 
 def models_of(path: str) -> tuple[type[Model], ...]:
@@ -172,12 +180,18 @@ def build(cls: type, table: Any, path: str) -> Any:
     table = with_named_set(dict(table), path)
     known, hints = {f.name: f for f in fields(cls)}, get_type_hints(cls)
     problems = TableError()
+    asked: set[str] = set()  # keys that sentences on unknown ones ask for
+    said = ""  # the last of these
     for key in table:
         if key not in known:
             where = f"[{path}]" if path else "The scene"
             keys = [*(["model"] if cls in models_of(path) else []), *known]
-            other = _elsewhere(cls, key, path) or did_you_mean(key, keys)
-            hint = _inside(hints, key, path) or f"{other} Known are {', '.join(keys)}."
+            hint = _elsewhere(cls, key, path) or _inside(hints, key, path)
+            if other := meant(path, key):
+                hint, asked = f" {other.sentence}", asked | {*other.keys}
+                hint, said = ("" if hint == said else hint), hint
+            elif not hint:
+                hint = f"{did_you_mean(key, keys)} Known are {', '.join(keys)}."
             problems.wrong.append(f"{where} has no key '{key}'.{hint}")
     values = {}
     for name, f in known.items():
@@ -185,7 +199,7 @@ def build(cls: type, table: Any, path: str) -> Any:
         if name in table:
             with problems.collected():
                 values[name] = _value(hints[name], table[name], full, f)
-        elif f.default is MISSING:
+        elif f.default is MISSING and name not in asked:
             problems.missing.append(_missing(full, f))
     problems.refuse()
     return cls(**values)
@@ -362,7 +376,7 @@ def _missing(full: str, f: "Field[Any]") -> Missing:
     if "unit" in f.metadata:
         unit, text = f.metadata["unit"], f"{f.metadata['text']}{instead}"
         unit = f" [{unit}]" if unit else ""
-        return Missing(full, f"{unit} ({text})".strip(), f"Give it{unit}: {text}.")
+        return Missing(full, f"{unit} ({text})".strip(), f"Give it{unit}: {text}.{_TOO.get(full, '')}")
     if models:
         sheet = f"{_DATA_SHEET}, or " if full == "lubricant.viscosity" else ""
         text = f"{sheet}a 'model': {', '.join(law.name for law in models)}{instead}"

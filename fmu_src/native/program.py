@@ -249,8 +249,8 @@ def _equations(scene: Scene) -> dict[str, str]:
         slopes, slope_texts = translated(derivatives, [case, state])
     except Untranslatable as error:
         raise SceneError(
-            f"The equations of '{scene.name}' cannot be written as C: {error}\ndocs/how-to/native_fmu.md says what "
-            "can. Write that line so, or build with --flavour isolated."
+            f"The equations of '{scene.name}' cannot be written as C: {error}\n`tribofmu docs native_fmu` says "
+            "what can. Write that line so, or build with --flavour isolated."
         ) from error
     if (bytes_ := stack_of(step_texts)) > _MOST_STACK:
         raise SceneError(

@@ -1,10 +1,14 @@
 """The command line that builds an FMU: build_fmu.py, and `tribofmu build`. Light to import."""
 
 import argparse
+import os
 import sys
+import zipfile
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from shutil import which
+from xml.etree import ElementTree
 
 from contact_core.errors import SceneError
 from contact_core.scene import Scene, told
@@ -63,6 +67,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="change a value of the scene, e.g. film.points=65 or tribofilm.model=none",
     )
+    parser.add_argument(
+        "--force",
+        action="store_true",
+        help="build numbers that look like mistakes, and replace a file of another scene",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -73,9 +82,13 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.python and arguments.flavour != "isolated":
         raise SceneError(f"--python is for isolated FMUs: {_NO_PYTHON[arguments.flavour]}. Leave it out.")
     scene, assumed = Scene.read(arguments.scene, _overrides(arguments.overrides))
-    for warning in (*filter(None, [told(assumed)]), *scene.doubts(), *scene.warnings()):
+    doubts = scene.doubts()
+    if doubts and not arguments.force:
+        raise SceneError(f"{' '.join(doubts)} If this is meant, add --force.")
+    for warning in (*filter(None, [told(assumed)]), *doubts, *scene.warnings()):
         print(f"Note: {warning}", file=sys.stderr)
     out = arguments.out or Path(f"{scene.name}.fmu")
+    _ask_before(out, scene, arguments.force)
     if arguments.flavour == "native":
         print("Note: C is written and compiled, for each platform in turn; this may take minutes.", file=sys.stderr)
     from .build import build
@@ -88,6 +101,33 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"The FMU cannot be written: {error}.", file=sys.stderr)
         return 2
     return 0
+
+
+def _ask_before(out: Path, scene: Scene, force: bool) -> None:
+    """Say that a file is replaced. Raises SceneError if it cannot be, or is no FMU of this scene, unless `force`d."""
+    folder = out.absolute().parent
+    with suppress(OSError):
+        folder.mkdir(parents=True, exist_ok=True)
+    if not os.access(folder, os.W_OK):
+        raise SceneError(f"The folder '{out.parent}' cannot be written to. Use another --out.")
+    if not out.is_file():
+        return
+    before = _description(out)
+    own = before == scene.description or before.startswith(f"{scene.name}:")  # as descriptions by default do
+    if not own and not force:
+        what = f"the FMU '{before}'" if before else "no FMU"
+        raise SceneError(f"'{out}' is there already: {what}. Use another --out, or --force to replace it.")
+    print(f"Note: '{out}' is replaced.", file=sys.stderr)
+
+
+def _description(path: Path) -> str:
+    """Return the description of an FMU; an empty text if the file is none."""
+    try:
+        with zipfile.ZipFile(path) as fmu, fmu.open("modelDescription.xml") as text:
+            _, root = next(iter(ElementTree.iterparse(text, events=("start",))))
+            return str(root.get("description", ""))
+    except (OSError, KeyError, zipfile.BadZipFile, ElementTree.ParseError):
+        return ""
 
 
 def _tell_missing(arguments: argparse.Namespace) -> None:

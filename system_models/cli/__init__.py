@@ -19,8 +19,9 @@
     build       build: the FMU of a scene
     check       check: verdicts on an FMU
     cosim       cosim: a system of FMUs
+    docs        docs: the pages of the documentation
     completion  completion: a script for the shell
-    pages       the page of the documentation that explains an error
+    pages       names of the pages of the documentation, the one that explains an error
     scenes      the scene and duty that commands are given
     simulation  simulates a system with a checkpoint
     progress    progress bar, how to continue an unfinished run

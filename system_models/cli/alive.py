@@ -46,6 +46,7 @@ class _Doing:
         self._told = self._within = ""
         self._begin, self._first, self._done, self._left = 0.0, 0, 0, 0
         self._depth = self._compiled = 0
+        self._since, self._compiling = 0.0, 0.0  # begin of the present kernel; s in this part so far
         self._listener: Any = None
 
     def told(self, what: str, number: int, total: int) -> None:
@@ -54,7 +55,7 @@ class _Doing:
             self._within = f", {what} {number} of {total}" if number > 1 else ""
             return
         if number == 1 or not self._told:
-            self._begin, self._first = monotonic(), number
+            self._begin, self._first, self._compiling = monotonic(), number, 0.0
         self._told, self._within = f"{what} {number} of {total}", ""
         self._done, self._left = number - self._first, total - number
 
@@ -62,7 +63,7 @@ class _Doing:
         """Return what is being done in a few words, and how long the parts that are left will take."""
         if self._depth:
             return _COMPILING.format(self._compiled)
-        spent = monotonic() - self._begin
+        spent = monotonic() - self._begin - self._compiling  # which happens once
         if self._done < 1 or spent < _SOON:
             return (self._told + self._within).removeprefix(", ")
         left = spent / self._done * (self._left + 1)
@@ -87,12 +88,16 @@ class _Doing:
 
     def begins(self) -> None:
         """Count a kernel that begins to compile; kernels compile those that they call."""
+        if not self._depth:
+            self._since = monotonic()
         self._depth += 1
 
     def ends(self) -> None:
         """Count a kernel that is compiled."""
         self._depth -= 1
         self._compiled += 1
+        if not self._depth:
+            self._compiling += monotonic() - max(self._since, self._begin)
 
 
 def _compiler_listener(doing: _Doing) -> Any:

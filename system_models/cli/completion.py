@@ -1,4 +1,4 @@
-"""The command `tribofmu completion`: a script that completes commands, options, and shipped scenes and machines.
+"""The command `tribofmu completion`: a script that completes commands, options, shipped scenes and machines, and pages.
 
 It is made from the arguments that the commands have, and holds all words itself: no key press starts Python.
 """
@@ -8,6 +8,7 @@ import argparse
 from contact_core.scene.toml import shipped_scenes
 
 from ..machines import files
+from . import pages
 
 _BASH = """\
 _tribofmu() {{
@@ -42,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _words(parser: argparse.ArgumentParser) -> dict[str, list[str]]:
-    """Return what may follow each command: options, choices, and scenes and machines where they are taken."""
+    """Return what may follow each command: options, choices, scenes, machines and pages where they are taken."""
     (commands,) = (action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
     found = {}
     for name, command in commands.choices.items():
@@ -51,6 +52,8 @@ def _words(parser: argparse.ArgumentParser) -> dict[str, list[str]]:
         for action in command._actions:
             if action.dest == "scene":
                 words += [*shipped_scenes(), *(files.shipped() if "machine" in str(action.help) else ())]
+            if action.dest == "page":
+                words += pages.files()
         found[name] = list(dict.fromkeys(words))
     return found
 

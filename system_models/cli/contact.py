@@ -69,7 +69,7 @@ def _run_in(
         return code
     if not checkpoint.saved:
         ask_before(folder, origin.attributes(scene, duty, count), arguments.force)
-        introduce(scene, duty)
+        introduce(scene, duty, arguments.scene, settings_of(arguments))
     with continued_by_resume(lambda: checkpoint.file if checkpoint.count else None):
         dataset, errors = _simulate(scene, duty, checkpoint, fields)
         code = _report(dataset.assign_attrs(about), errors, scene, duty, folder, fields)
@@ -108,11 +108,12 @@ def _finished(folder: Path, scene: Scene, duty: "Duty", fields: int) -> int | No
     return 1 if report.invalid_rows(dataset) else 0
 
 
-def introduce(scene: Scene, duty: "Duty") -> None:
+def introduce(scene: Scene, duty: "Duty", source: str, settings: "Mapping[str, str]") -> None:
     """Print what the contact is like, before it is solved."""
     from ..run import trust
 
-    below = [f"Body {body}: {text}." for body, text in enumerate(microroughness(scene), 1)]
+    layers = microroughness(scene, source, settings)
+    below = [f"Body {body}: {text}." for body, text in enumerate(layers, 1)]
     about = [*trust.before(scene, duty), *trust.wrapped(*chosen(scene), *below)]
     print(*trust.wrapped(scene.description), *about, "", sep="\n", flush=True)
 

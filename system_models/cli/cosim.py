@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from contact_core.errors import ContactError
 
 from .console import add_settings, note, output_folder
-from .overwriting import add_force
+from .overwriting import add_force, refuse_existing
 from .simulation import EXIT_CODE, carry_out
 
 if TYPE_CHECKING:
@@ -46,6 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     system, settings = read(arguments.system, arguments.settings)
     if arguments.ssp:
+        refuse_existing([Path(arguments.ssp)], arguments.force)
         return _export(system, arguments.ssp, settings)
     for key in ("stop_time", "step_size"):
         if key not in settings:

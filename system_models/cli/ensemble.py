@@ -38,11 +38,11 @@ def run(arguments: argparse.Namespace, members: "Members") -> int:
     scene, duty, settings = _checked(arguments, members)
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
     points = output_folder(str(folder / FILE), "")
-    task = Task(arguments.scene, tuple(settings.items()), folder_of_duty(arguments), points)
+    task = Task(arguments.scene, tuple(settings.items()), folder_of_duty(arguments), points, arguments.force)
     with alone(folder):
         ask_before(folder, {**attributes(scene, duty), ATTRIBUTE: attribute(members)}, arguments.force)
         print(members.text)
-        introduce(scene, duty)
+        introduce(scene, duty, arguments.scene, settings | dict(members.settings[0]))
         return _run_in(task, members, scene, duty, folder, processes)
 
 
@@ -57,7 +57,7 @@ def _checked(arguments: argparse.Namespace, members: "Members") -> "tuple[Scene,
     for name, chosen in zip(members.names[1:], members.settings[1:], strict=True):
         try:
             member = Scene.from_toml(arguments.scene, settings | dict(chosen))
-            ask_back(member, arguments.force)
+            ask_back(member.doubts(), arguments.force)
         except ContactError as error:
             raise ContactError(f"Member '{name}' of the ensemble: {error}") from None
         doubts |= dict.fromkeys(member.warnings())

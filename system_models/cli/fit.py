@@ -1,15 +1,18 @@
 """The command `tribofmu fit`: fits constants of a scene to measured numbers."""
 
 import argparse
-import logging
+import json
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
-from .console import output_folder
+from .console import note, output_folder
+from .overwriting import refuse_existing
+from .progress import counted
 from .scenes import add_scene, contact, warn
 
 if TYPE_CHECKING:
@@ -66,6 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
     folder = output_folder(arguments.out, name)
     warn(scene.warnings())
     with alone(folder):
+        _ask_before(folder, name, {"data": measured.source, "scene": scene.name}, arguments.force)
         found = _fitted(name, scene, measured, constants, arguments.level, share)
         return _report(found, name, folder)
 
@@ -84,25 +88,37 @@ def _name(arguments: argparse.Namespace) -> str:
     return name
 
 
+def _ask_before(folder: Path, name: str, origin: Mapping[str, str], force: bool) -> None:
+    """Say what fit in a folder is replaced. Raises ContactError if it is of other data or another scene."""
+    path = folder / "fit.json"
+    try:
+        before = json.loads(path.read_text("utf-8"))
+    except (OSError, ValueError):
+        refuse_existing([folder / f"{name}.toml"], force)
+        return
+    if not force and not origin.items() <= before.items():
+        raise ContactError(
+            f"'{path}' is the fit to '{before.get('data')}' in scene '{before.get('scene')}', and this is to "
+            f"'{origin['data']}' in '{origin['scene']}'. Use another --out, or --force to replace it."
+        )
+    note(f"'{path}', an earlier fit, will be replaced. To keep it, stop and use another --out.")
+
+
 def _fitted(
     name: str, scene: Scene, measured: "Measured", constants: "tuple[Constant, ...]", level: str, share: float
 ) -> "Fit":
     """Fit, with a counter of the sets of constants tried."""
-    from tqdm import tqdm
-    from tqdm.contrib.logging import logging_redirect_tqdm
+    from itertools import count
 
     from ..run.fit import fit
 
-    logging.basicConfig(format="%(message)s")
-    bar = tqdm(desc=name, bar_format="{desc}: {n} sets of constants [{elapsed}]")
-
-    def show(stage: str) -> None:
-        bar.set_description_str(f"{name}, {stage}", refresh=False)
-        bar.update()
-
+    tried = count(1)
     try:
-        with bar, logging_redirect_tqdm():
-            return fit(scene, measured, constants, measured.held_back(share), level, show)
+        with counted(name, "sets of constants") as show:
+            held_back = measured.held_back(share)
+            return fit(
+                scene, measured, constants, held_back, level, lambda stage: show(next(tried), f"{name}, {stage}")
+            )
     except KeyboardInterrupt:
         raise KeyboardInterrupt("Nothing was written; the same command fits from the beginning.") from None
 

@@ -7,6 +7,7 @@ from contact_core.errors import ContactError
 from contact_core.scene import units
 
 from .console import note, output_folder
+from .overwriting import add_force, refuse_existing
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -33,6 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "(default: as ball and disc speeds of the log say, else 1)",
     )
     parser.add_argument("--out", metavar="NAME", help="writes NAME_duty.csv and NAME_data.csv (default: name of FILE)")
+    add_force(parser, "replace files that are there already")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -59,11 +61,9 @@ def run(arguments: argparse.Namespace) -> int:
     if not duty and not data:
         raise ContactError(f"'{log.name}' has neither a duty nor anything measured in the columns that are taken.")
     folder = output_folder(str(given.parent), "")
-    written = [
-        log_tables.write(table, folder / f"{given.name}_{kind}.csv")
-        for kind, table in (("duty", duty), ("data", data))
-        if table
-    ]
+    tables = {folder / f"{given.name}_{kind}.csv": table for kind, table in (("duty", duty), ("data", data)) if table}
+    refuse_existing(tables, arguments.force)
+    written = [log_tables.write(table, path) for path, table in tables.items()]
     if not duty:
         note("No duty: inputs change, but there is no column of time to say when.")
     tests = {tuple(row.inputs.items()) for row in rows if row.measured}

@@ -1,12 +1,15 @@
 """Runs a machine: builds its FMUs, simulates and reports. Light to import."""
 
 import argparse
+import itertools
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
 
 from .console import note, output_folder, refuse_empty
-from .scenes import tell_assumed
+from .overwriting import refuse_existing
+from .progress import counted, shown
+from .scenes import ask_back, tell_assumed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,15 +26,18 @@ if TYPE_CHECKING:
 
 def run(arguments: argparse.Namespace) -> int:
     """Carry out the command and return the exit code. Raises ContactError with a sentence if it cannot."""
-    from ..machines import reading, tables, timeline
+    note(f"Loading '{arguments.scene}'; its report comes at the end.")
+    from ..machines import plausibility, reading, tables, timeline
 
     machine = reading.read(arguments.scene, _changes(arguments))
     if arguments.duty:
         machine.table["duty"] = timeline.with_file(machine.table.get("duty", {}), Path(arguments.duty).absolute())
     assembly = reading.assemble(machine)
+    ask_back(plausibility.doubts(machine, assembly), arguments.force)
     assumed = tables.scene_and_assumed(machine.table)[1]
     tell_assumed(assumed)
     if arguments.ssp:
+        refuse_existing([Path(arguments.ssp)], arguments.force)
         return _export(assembly, arguments.ssp, arguments.flavour or "isolated")
     folder = output_folder(arguments.out, machine.name)
     return _run_in(folder, assembly, machine, assumed, arguments)
@@ -127,12 +133,15 @@ def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "S
 
     begin = monotonic()
     settings = coupling_error.coarser(dataset, assembly.settings, assembly.schedule)
-    coarse = simulate(system, **settings, outputs=assembly.outputs())
+    with shown(f"{assembly.name}, double steps", settings["stop_time"], "{n:.4g}/{total:.4g} s") as progress:
+        coarse = simulate(system, **settings, outputs=assembly.outputs(), progress=progress)
     dataset = coupling_error.stated(dataset, coarse, assembly.schedule)
     print("", *coupling_error.lines(dataset, assembly.nominals()), sep="\n")
     print(f"This took {monotonic() - begin:.0f} s.", "", sep="\n", flush=True)
     begin = monotonic()
-    states = resolve.resolve(assembly, dataset, lambda done: note(f"Solved again: {done}."))
+    tried = itertools.count(1)
+    with counted(assembly.name, "states solved again") as show:
+        states = resolve.resolve(assembly, dataset, lambda done: show(next(tried), f"{assembly.name}, {done}"))
     better = corrected.corrected(assembly, dataset, states)
     print(
         *resolve.lines(states),

@@ -8,11 +8,14 @@ has gone, as in `tribofmu list | head`.
 import argparse
 import errno
 import os
+import re
 import sys
 from collections.abc import Sequence
-from typing import Protocol
+from typing import NoReturn, Protocol
 
+import contact_core
 from contact_core.errors import ContactError
+from contact_core.scene.toml import did_you_mean
 
 from . import (
     build,
@@ -20,6 +23,7 @@ from . import (
     compare,
     completion,
     cosim,
+    docs,
     explain,
     fit,
     listing,
@@ -34,7 +38,7 @@ from . import (
     validate,
 )
 from . import map as mapping
-from .pages import page_of
+from .pages import see
 
 
 class Command(Protocol):
@@ -66,6 +70,7 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "validate": (validate, "compare answers with measurements, published numbers and closed forms"),
     "check": (check, "give a verdict per rule on any FMU"),
     "cosim": (cosim, "simulate a system of FMUs"),
+    "docs": (docs, "list the pages of the documentation, or show one"),
     "completion": (completion, "print a script with which a shell completes all this"),
 }
 
@@ -85,13 +90,21 @@ _REFUSED = {
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
     parser = _parser()
-    arguments = parser.parse_args(argv, argparse.Namespace(parser=parser))
+    arguments, unknown = parser.parse_known_args(argv, argparse.Namespace(parser=parser))
+    if "command" not in arguments and not unknown:
+        parser.print_help(sys.stderr)
+        return 2
+    if unknown:
+        own = getattr(arguments, "own_parser", parser)
+        options = [option.lstrip("-") for option in own._option_string_actions]
+        like = did_you_mean(unknown[0].lstrip("-"), options).replace("'", "'--", 1)
+        own.error(f"unrecognized arguments: {' '.join(unknown)}.{like}")
     try:
         code = int(arguments.command(arguments))
         sys.stdout.flush()  # here, so that a closed pipe is seen here and not at exit
         return code
     except ContactError as error:
-        print(f"tribofmu: {error} See {page_of(error, arguments.command_name)}.", file=sys.stderr)
+        print(f"tribofmu: {error}{see(error, arguments.command_name)}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as interrupt:
         print(f"tribofmu: Interrupted. {interrupt}".rstrip(), file=sys.stderr)
@@ -111,17 +124,31 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
 
 
+class _Parser(argparse.ArgumentParser):
+    """Refuses a command that is not there with one like it."""
+
+    def error(self, message: str) -> NoReturn:
+        """End the program with a sentence on the arguments."""
+        wrong = re.match(r"argument COMMAND: invalid choice: '(.*?)'", message)
+        if wrong:
+            message = f"there is no command '{wrong[1]}'.{did_you_mean(wrong[1], list(COMMANDS))} `tribofmu` lists them"
+        super().error(message)
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="tribofmu",
         description="Contacts with mixed lubrication, tribofilm and wear: run them, build FMUs of them, check and "
         "couple any FMUs.",
+        epilog="To start: `tribofmu run mtm_zddp`, or a scene of your own by `tribofmu new mine`; "
+        "`tribofmu docs getting_started` explains both, `tribofmu COMMAND --help` a command.",
     )
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    parser.add_argument("--version", action="version", version=f"tribofmu {contact_core.__version__}")
+    commands = parser.add_subparsers(metavar="COMMAND", parser_class=argparse.ArgumentParser)
     for name, (module, text) in COMMANDS.items():
         command = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
         module.add_arguments(command)
-        command.set_defaults(command=module.run, command_name=name)
+        command.set_defaults(command=module.run, command_name=name, own_parser=command)
     return parser
 
 

@@ -9,7 +9,9 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
 from .console import add_settings, note, output_folder
-from .scenes import refuse_machine, tell_assumed, warn
+from .overwriting import add_force
+from .progress import counted
+from .scenes import ask_back, refuse_machine, tell_assumed, warn
 
 if TYPE_CHECKING:
     from ..run.map_build import Built, Order
@@ -40,6 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         ("--radius-x", "radii along entrainment of rollers and lines, such as '5 mm:12 mm', alone that of the scene"),
     ):
         parser.add_argument(option, metavar="LOW:HIGH", help=f"{text} (default: about the scene's operation)")
+    add_force(parser)
     add_settings(parser, "change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'")
 
 
@@ -70,6 +73,10 @@ def run(arguments: argparse.Namespace) -> int:
         _seconds(arguments.time),
         processes_of(arguments.processes),
         arguments.executor,
+    )
+    ask_back(
+        scene.doubts([("operation", scene.operation.point), ("The map's range", order.ranges.extreme())]),
+        arguments.force,
     )
     folder = output_folder(arguments.out, scene.name)
     warn(scene.warnings())
@@ -110,20 +117,16 @@ def processes_of(count: int) -> int:
 
 def _built(order: "Order", file: Path) -> "Built":
     """Make the map, with a counter of the histories."""
-    from tqdm import tqdm
-
     from ..run.map_build import build
 
-    bar = tqdm(desc=order.scene.name, bar_format="{desc}: {n} histories{postfix} [{elapsed}]")
-
-    def show(count: int, halves: tuple[float, ...] | None) -> None:
-        if halves is not None:
-            friction, film, load = (f"{100.0 * half:.1f} %" for half in halves)
-            bar.set_postfix_str(f"friction {friction}, h_c {film}, W_c {load}", refresh=False)
-        bar.update(count - bar.n)
-
+    name = order.scene.name
     try:
-        with bar:
+        with counted(name, "histories") as shown:
+
+            def show(count: int, halves: tuple[float, ...] | None) -> None:
+                known = zip(("friction", "h_c", "W_c"), halves or (), strict=False)
+                shown(count, ", ".join([name, *(f"{output} {100.0 * half:.1f} %" for output, half in known)]))
+
             return build(order, file, show)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"What is solved is kept in '{file}': the same command goes on from there.") from None

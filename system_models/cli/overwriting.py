@@ -1,7 +1,7 @@
 """A result of another run is not replaced without a word."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,13 +13,18 @@ from .console import note
 _SHOWN = 4  # settings that are named
 
 
-def add_force(parser: Any) -> None:
+def add_force(
+    parser: Any, text: str = "compute numbers that look like mistakes, and replace the result of another scene"
+) -> None:
     """Add the argument --force."""
-    parser.add_argument(
-        "--force",
-        action="store_true",
-        help="compute numbers that look like mistakes, and replace the result of another scene",
-    )
+    parser.add_argument("--force", action="store_true", help=text)
+
+
+def refuse_existing(paths: Iterable[Path], force: bool) -> None:
+    """Raise ContactError if a file that would be written is there already, unless `force`d."""
+    there = [path for path in paths if path.exists()]
+    if there and not force:
+        raise ContactError(f"'{there[0]}' is there already. Use another --out, or --force to replace it.")
 
 
 def ask_before(folder: Path, origin: Mapping[str, Any], force: bool, file: str = "result") -> None:

@@ -1,6 +1,11 @@
-"""Pages of the documentation for what goes wrong: what an error is about, and the page that explains it."""
+"""Pages of the documentation: their names, and the one that explains an error.
+
+An installed package has them in `system_models/docs`, a checkout in `docs`. A page is named after its file, one of
+measurements by its path: `scenes`, `measured/film/flux`.
+"""
 
 import re
+from pathlib import Path
 
 from contact_core.errors import (
     ContactError,
@@ -11,36 +16,73 @@ from contact_core.errors import (
     StateError,
 )
 
+_PACKAGE = Path(__file__).parents[1]
+_PLACES = (_PACKAGE / "docs", _PACKAGE.parent / "docs")  # installed, checkout
+MEASURED = "measured/"
+
 # words of a sentence, the first that are found count; page
 _TOPICS = (
-    (r"--fields", "docs/how-to/fields.md"),
-    (r"--ssp|\bmachine\b", "docs/how-to/machines.md"),
-    (r"film\.map|tribofmu map", "docs/how-to/map.md"),
-    (r"scuffing", "docs/how-to/scuffing.md"),
-    (r"\bstress\.|fatigue", "docs/how-to/stress.md"),
-    (r"correlation_length|microroughness|roll_off|heights|surface_[12]", "docs/how-to/surfaces.md"),
+    (r"--fields", "fields"),
+    (r"--ssp|\bmachine\b", "machines"),
+    (r"film\.map|tribofmu map", "map"),
+    (r"scuffing", "scuffing"),
+    (r"\bstress\.|fatigue", "stress"),
+    (r"correlation_length|microroughness|roll_off|heights|surface_[12]", "surfaces"),
 )
 _OF_COMMANDS = {
-    "build": "docs/how-to/fmu.md",
-    "check": "docs/how-to/check.md",
-    "cosim": "docs/how-to/cosim.md",
-    "fit": "docs/how-to/fit.md",
-    "map": "docs/how-to/map.md",
-    "surfaces": "docs/how-to/surfaces.md",
+    "build": "fmu",
+    "check": "check",
+    "compare": "report",
+    "cosim": "cosim",
+    "explain": "explain",
+    "fit": "fit",
+    "log": "logs",
+    "map": "map",
+    "new": "scenes",
+    "report": "report",
+    "surface-file": "measured_surfaces",
+    "surfaces": "surfaces",
+    "sweep": "sweep",
+    "validate": "validate",
 }
 _OF_ERRORS: dict[type[ContactError], str] = {  # the more special ones first
-    FilmTooWideError: "docs/concepts/numerics.md",
-    ConvergenceError: "docs/concepts/numerics.md",
-    OperatingPointError: "docs/concepts/model.md",
-    SceneError: "docs/how-to/scenes.md",
-    StateError: "docs/how-to/fmu.md",
+    FilmTooWideError: "numerics",
+    ConvergenceError: "numerics",
+    OperatingPointError: "model",
+    SceneError: "scenes",
+    StateError: "fmu",
 }
-_ELSE = "docs/index.md"
-PAGES = frozenset({page for _, page in _TOPICS} | {*_OF_COMMANDS.values(), *_OF_ERRORS.values(), _ELSE})
+_ELSE = "run"
+NAMED = frozenset({page for _, page in _TOPICS} | {*_OF_COMMANDS.values(), *_OF_ERRORS.values(), _ELSE})
+
+
+def files() -> dict[str, Path]:
+    """Return the files of the pages by name, as docs/index.md orders them; none if they are not installed."""
+    folder = next((place for place in _PLACES if (place / "index.md").is_file()), None)
+    if folder is None:
+        return {}
+    index = (folder / "index.md").read_text("utf-8")
+    paths = re.findall(r"^- \[.*\]\((.+\.md)\)", index, re.MULTILINE)
+    return {name_of(path.removesuffix(".md")): folder / path for path in paths}
+
+
+def name_of(path: str) -> str:
+    """Return the name of a page by its path in the docs folder without suffix."""
+    return path if path.startswith(MEASURED) else path.rpartition("/")[2]
+
+
+def title(text: str) -> str:
+    """Return the title of a page."""
+    return text.partition("\n")[0].removeprefix("# ").replace("`", "")
+
+
+def see(error: ContactError, command: str) -> str:
+    """Return how to read the page that explains an error of a command; empty where the pages are what is asked for."""
+    return "" if command == "docs" else f" See: tribofmu docs {page_of(error, command)}"
 
 
 def page_of(error: ContactError, command: str) -> str:
-    """Return the page that explains an error of a command: by its words, its kind, or the command."""
+    """Return the name of the page that explains an error of a command: by its words, its kind, or the command."""
     for words, page in _TOPICS:
         if re.search(words, str(error)):
             return page

@@ -1,9 +1,11 @@
 """What every long run says, of a contact or of coupled FMUs: how far it is, what it replaces, how to continue it."""
 
 import logging
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from contact_core.errors import ContactError, StateError
 
@@ -25,18 +27,46 @@ def shown(
     total, since [s]: end and beginning of what is left; unit [s] of the bar; amount: its numbers as `tqdm` formats
     them.
     """
+    text = f"{{desc}} {{percentage:3.0f}} %|{{bar}}| {amount} [{{elapsed}}<{{remaining}}{{postfix}}]"
+    with _living(name, text, total=total / unit, initial=since / unit) as bar:
+        yield lambda time: bar.update(time / unit - bar.n)
+
+
+@contextmanager
+def counted(name: str, what: str, total: int | None = None) -> Iterator[Callable[..., None]]:
+    """Show how many parts of a long command are done, with the log above it; `what` they are, in the plural.
+
+    Gives the function that takes their number, and another text in place of `name` if that changes.
+    """
+    share = "{desc} {percentage:3.0f} %|{bar}| {n}/{total} " if total else "{desc}: {n} "
+    rest = "<{remaining}" if total else ""
+    with _living(name, f"{share}{what} [{{elapsed}}{rest}{{postfix}}]", total=total) as bar:
+
+        def show(count: int, text: str = name) -> None:
+            bar.set_description_str(text, refresh=False)
+            bar.update(count - bar.n)
+            bar.refresh()
+
+        yield show
+
+
+def say(text: str) -> None:
+    """Print a part of the result at once, above the bar that is shown."""
+    from tqdm import tqdm
+
+    tqdm.write(text, file=sys.stdout)
+    sys.stdout.flush()
+
+
+@contextmanager
+def _living(name: str, text: str, **amounts: Any) -> Iterator[Any]:
+    """Give a `tqdm` bar that moves while kernels compile and one solution takes long, with the log above it."""
     from tqdm import tqdm
     from tqdm.contrib.logging import logging_redirect_tqdm
 
     logging.basicConfig(format="%(message)s")
-    bar = tqdm(
-        total=total / unit,
-        initial=since / unit,
-        desc=name,
-        bar_format=f"{{desc}} {{percentage:3.0f}} %|{{bar}}| {amount} [{{elapsed}}<{{remaining}}{{postfix}}]",
-    )
-    with bar, logging_redirect_tqdm(), alive(bar):
-        yield lambda time: bar.update(time / unit - bar.n)
+    with tqdm(desc=name, bar_format=text, **amounts) as bar, logging_redirect_tqdm(), alive(bar):
+        yield bar
 
 
 @contextmanager

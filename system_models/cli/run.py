@@ -1,9 +1,10 @@
 """The command `tribofmu run`: a scene's contact, or a machine, through its duty."""
 
 import argparse
+from pathlib import Path
 
 from contact_core.errors import ContactError
-from contact_core.scene.toml import did_you_mean, shipped_scenes
+from contact_core.scene.toml import did_you_mean, file_like, shipped_scenes
 from fmu_src.flavours import FLAVOURS
 
 from ..machines import files
@@ -93,7 +94,8 @@ def _check_name(name: str) -> None:
     """Raise ContactError if nothing that is shipped is called so, and it is no file."""
     shipped = [*shipped_scenes(), *files.shipped()]
     if not name.endswith(".toml") and name not in shipped:
+        like = file_like(Path(f"{name}.toml")) or did_you_mean(name, shipped)
         raise ContactError(
-            f"There is no scene or machine '{name}'.{did_you_mean(name, shipped)} Shipped are {', '.join(shipped)}; or "
-            "give the path of a .toml file."
+            f"There is no scene or machine '{name}'.{like} Shipped are {', '.join(shipped)}; or give the path of a "
+            ".toml file."
         )

@@ -2,7 +2,7 @@
 
 import argparse
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -10,6 +10,7 @@ from contact_core.errors import ContactError
 from contact_core.quantities import UNSOLVED
 from contact_core.scene import Assumed, Scene, ensemble, told
 from contact_core.scene.ensemble import Members
+from contact_core.scene.origins import Origin, origins
 from contact_core.scene.toml import given
 
 from ..machines import files
@@ -71,7 +72,7 @@ def contact_of(arguments: argparse.Namespace, overrides: dict[str, str]) -> Cont
     if largest > scene.largest_load and any(each.key == "film.domain" for each in assumed):  # a grid for that load
         overrides = overrides | {"operation.largest_load": f"{largest!r} N"}
         scene, assumed = Scene.read(arguments.scene, overrides)
-    ask_back(scene, arguments.force)
+    ask_back(scene.doubts(duty.named(scene)), arguments.force)
     tell_assumed(assumed)
     return Contact(duty.sized(scene), duty, overrides, assumed)
 
@@ -82,9 +83,8 @@ def tell_assumed(assumed: Sequence[Assumed]) -> None:
         note(told(assumed))
 
 
-def ask_back(scene: Scene, force: bool) -> None:
+def ask_back(doubts: Sequence[str], force: bool) -> None:
     """Raise ContactError for numbers that look like mistakes, unless `force`d; then warn."""
-    doubts = scene.doubts()
     if doubts and not force:
         raise ContactError(f"{' '.join(doubts)} If this is meant, add --force.")
     for doubt in doubts:
@@ -103,19 +103,30 @@ def warn(sentences: Iterable[str]) -> None:
         print(f"tribofmu: warning: {warning}", file=sys.stderr)
 
 
-def microroughness(scene: Scene) -> tuple[str, str]:
-    """Return a few words for each body on its roughness below the grid."""
+def microroughness(scene: Scene, source: str, settings: Mapping[str, str]) -> tuple[str, str]:
+    """Return a few words for each body on its roughness below the grid, and where its value is from.
+
+    source, settings: what the scene was read from.
+    """
     layers = [surface.microroughness for surface in (scene.surface_1, scene.surface_2)]
     bare = not any(layer and layer.rms > 0.0 for layer in layers)
     none = "no microroughness" + (": solids touch at the floor" if bare else "")
+    found = {} if bare else origins(source, scene.to_dict(), settings)
     first, second = (
         f"microroughness {1e9 * layer.rms:.3g} nm rms, waves below {1e6 * layer.longest:.3g} um "
-        "(assumed in shipped scenes)"
+        f"({_from(found[f'surface_{body}.microroughness.rms'])})"
         if layer and layer.rms > 0.0
         else none
-        for layer in layers
+        for body, layer in enumerate(layers, 1)
     )
     return first, second
+
+
+def _from(origin: Origin) -> str:
+    """Return where a value is from, in a few words."""
+    if origin.set_name:
+        return f"{origin.source or origin.remark or 'without a source'}; set {origin.set_name}"
+    return origin.remark or origin.source or f"from {origin.kind.value}, without a source"
 
 
 def chosen(scene: Scene) -> list[str]:
@@ -132,7 +143,7 @@ def chosen(scene: Scene) -> list[str]:
 
 
 def settings_of(arguments: argparse.Namespace) -> dict[str, str]:
-    """Return the overrides of the scene that the options are."""
+    """Return the changes of a scene's keys by --set, and by the options that stand for some of them."""
     refuse_empty(arguments)
     settings = dict(arguments.settings)
     if getattr(arguments, "hours", None):

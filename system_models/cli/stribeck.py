@@ -1,7 +1,6 @@
 """The command `tribofmu stribeck`: rubs a scene's contact and measures its Stribeck curves."""
 
 import argparse
-import logging
 import re
 from collections.abc import Sequence
 from contextlib import suppress
@@ -11,10 +10,10 @@ from typing import TYPE_CHECKING
 from contact_core.errors import ContactError
 from contact_core.scene import Scene, units
 
-from .alive import alive
 from .console import output_folder
 from .overwriting import ask_before
-from .scenes import add_scene, contact, warn
+from .progress import counted
+from .scenes import add_scene, ask_back, contact, warn
 
 if TYPE_CHECKING:
     from ..run.duty import Duty
@@ -58,6 +57,8 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.points,
         _slide_roll_ratio(arguments.srr),
     )
+    swept = ((f"The sweep at {speed:.3g} m/s", plan.point(speed)) for speed in plan.speeds)
+    ask_back(scene.doubts(swept), arguments.force)
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
     warn(scene.warnings())
     _introduce(scene, plan)
@@ -111,25 +112,10 @@ def _plain_or_with_unit(option: str, text: str, unit: str) -> float:
 
 def _sweep(scene: Scene, duty: "Duty", curves: "Curves") -> None:
     """Measure the curves, with a progress bar in points."""
-    from tqdm import tqdm
-    from tqdm.contrib.logging import logging_redirect_tqdm
-
     from ..run.stribeck import measure
 
-    logging.basicConfig(format="%(message)s")
-    bar = tqdm(
-        total=len(curves.plan.times) * len(curves.plan.speeds),
-        desc=scene.name,
-        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} points [{elapsed}<{remaining}{postfix}]",
-    )
-
-    def show(stage: str, count: int) -> None:
-        bar.set_description_str(f"{scene.name}, {stage}", refresh=False)
-        bar.update(count - bar.n)
-        bar.refresh()
-
-    with bar, logging_redirect_tqdm(), alive(bar):
-        measure(scene, duty, curves, show)
+    with counted(scene.name, "points", len(curves.plan.times) * len(curves.plan.speeds)) as show:
+        measure(scene, duty, curves, lambda stage, count: show(count, f"{scene.name}, {stage}"))
 
 
 def _kept(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -> str:

@@ -9,6 +9,7 @@ from contact_core.errors import ContactError
 from contact_core.scene import units
 
 from .console import output_folder
+from .overwriting import add_force, refuse_existing
 
 _NAME = re.compile(r"[a-z0-9_-]+$")
 _FORMS = ("none", "plane", "curvature")
@@ -57,6 +58,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help="writes NAME.npy and NAME.toml, of several files NAME_1, NAME_2 and so on (default: the name of FILE)",
     )
+    add_force(parser, "replace files that are there already")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -76,6 +78,7 @@ def _one(arguments: argparse.Namespace, file: Path, folder: Path, name: str) -> 
     """Read, prepare and write one surface, say what was done; return the file of its set."""
     from ..instruments import patch, surface_file, surface_set
 
+    refuse_existing([folder / f"{name}.npy", folder / f"{name}.toml"], arguments.force)
     size = tuple(_length(text, "--size") for text in arguments.size) if arguments.size else None
     image = surface_file.read(file, arguments.unit, size)  # type: ignore[arg-type]
     if arguments.window:

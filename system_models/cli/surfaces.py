@@ -28,7 +28,8 @@ def run(arguments: argparse.Namespace) -> int:
     warn(scene.warnings())
     print(f"Grid of {scene.film.points} nodes, {1e6 * scene.film.spacing:.3g} um apart")
     surfaces = (scene.surface_1, scene.surface_2)
-    for body, (surface, below) in enumerate(zip(surfaces, microroughness(scene), strict=True), 1):
+    layers = microroughness(scene, arguments.scene, settings)
+    for body, (surface, below) in enumerate(zip(surfaces, layers, strict=True), 1):
         heights = surface.heights
         made_of = ([surface.name] if surface.rq > 0.0 else []) + ([heights.file or "array"] if heights else [])
         print(f"\nBody {body}: {' and '.join(made_of) or 'smooth'}")

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
 
-from .alive import alive
-from .console import add_settings, output_folder
+from .console import add_settings, note, output_folder
 from .map import executor_arguments, processes_of
+from .overwriting import add_force, ask_before
+from .progress import counted
 from .scenes import refuse_machine
 
 if TYPE_CHECKING:
@@ -41,24 +42,29 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", metavar="S", type=int, default=1, help="of the samples (default: %(default)s)")
     parser.add_argument("--out", metavar="DIR", help="folder of the results (default: results/NAME_sweep)")
     executor_arguments(parser, "runs")
+    add_force(parser)
     add_settings(parser, "change values of the scene at every point, e.g. film.model=regression")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run, print and write the sweep; return the exit code."""
+    refuse_machine(arguments.scene)
+    note(f"Loading '{arguments.scene}'.")
     from ..store.checkpoint import alone
     from ..sweep.plan import plan_of
-    from ..sweep.points import Task
+    from ..sweep.points import Task, origin_of
 
-    refuse_machine(arguments.scene)
     plan = plan_of(arguments.vary, arguments.samples, arguments.method, arguments.seed)
     if plan.method == "indices" and plan.grid:
         keys = ", ".join(factor.key for factor in plan.grid)
         raise ContactError(f"--method indices varies ranges alone: give {keys} as LOW:HIGH, or by --set.")
     folder = output_folder(arguments.out, f"{Path(arguments.scene).stem}_sweep")
     duty = Path(arguments.scene).parent if arguments.scene.endswith(".toml") else Path()
-    task = Task(arguments.scene, tuple(arguments.settings), duty, output_folder(str(folder / "points"), ""))
+    task = Task(
+        arguments.scene, tuple(arguments.settings), duty, output_folder(str(folder / "points"), ""), arguments.force
+    )
     with alone(folder):
+        ask_before(folder, origin_of(task, plan), arguments.force, "sweep")
         outcomes = solved_with_bar(task, plan, processes_of(arguments.processes), arguments.executor)
         return _report(task, plan, outcomes, folder)
 
@@ -67,18 +73,11 @@ def solved_with_bar(task: "Task", plan: "Plan", processes: int, executor: str | 
     """Run the points, with a counter of them."""
     from math import prod
 
-    from tqdm import tqdm
-
     from ..sweep.points import solved
 
-    bar = tqdm(
-        total=prod(plan.shape),
-        desc=Path(task.scene).stem,
-        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} runs [{elapsed}<{remaining}{postfix}]",
-    )
     try:
-        with bar, alive(bar):
-            return solved(task, plan, processes, executor, lambda count: bar.update(count - bar.n))
+        with counted(Path(task.scene).stem, "runs", prod(plan.shape)) as show:
+            return solved(task, plan, processes, executor, show)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"Runs are kept in '{task.folder}': the same command goes on from there.") from None
 

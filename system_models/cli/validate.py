@@ -1,8 +1,13 @@
 """The command `tribofmu validate`: answers beside measurements, published numbers, closed forms and a thesis."""
 
 import argparse
+from typing import TYPE_CHECKING
 
 from .console import output_folder
+from .progress import counted, say
+
+if TYPE_CHECKING:
+    from ..validation.model import Outcome
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -24,10 +29,13 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"{name:14}  {compared.kind:20}  {compared.title}. {compared.source}")
         return 0
     folder = output_folder(arguments.out, "validation")
-    outcomes = {}
-    for name in names:
-        outcomes[name] = registry.outcome(name)
-        print(render(name, comparisons[name], outcomes[name]), end="\n\n", flush=True)
+    outcomes: dict[str, Outcome] = {}
+    with counted("validate", "comparisons", len(names)) as show:
+        for name in names:
+            show(len(outcomes), name)
+            outcomes[name] = registry.outcome(name)
+            say(render(name, comparisons[name], outcomes[name]) + "\n")
+        show(len(outcomes), "validate")
     print(f"{summary(outcomes)}.")
     print(f"Written: {', '.join(map(str, page.write(comparisons, outcomes, folder)))}")
     return 1 if any(found.unexplained for found in outcomes.values()) else 0

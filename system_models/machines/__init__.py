@@ -7,6 +7,7 @@ Each kind is a folder with its wiring, own parts, report and shipped files; `reg
     reading         a TOML file as an Assembly; tables: its tables as records
     timeline        the duty of a machine
     assembly        a machine's contacts, parts, connections and schedule; builds the FMUs
+    plausibility    numbers that look like mistakes
     report          costs, levels, invalid rows, stored heat
     trust           what to trust of a run: lines before it on the most loaded contacts, and after it
     causes          errors of contacts at the end of a run, by their causes

@@ -7,7 +7,7 @@ the scene's value.
 
 import bisect
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 from pathlib import Path
@@ -55,6 +55,13 @@ class Duty:
         if not scene.operation.file:
             return Duty.from_steps(point, scene.operation.steps)
         return Duty.from_csv((folder or Path()) / scene.operation.file, point)
+
+    def named(self, scene: Scene) -> Iterator[tuple[str, OperatingPoint]]:
+        """Yield the operating points with words for where a scene has them: its [operation], a step, or a row."""
+        file = scene.operation.file
+        for i, (time, point) in enumerate(zip(self.times, self.points, strict=True)):
+            step = f"operation.steps[{i - 1}]" if i else "operation"
+            yield f"Row {i + 1} of '{file}' (at {time:g} s)" if file else step, point
 
     def at(self, time: float) -> OperatingPoint:
         """Return the operating point held from `time` [s] on."""

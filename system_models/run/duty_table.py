@@ -16,7 +16,8 @@ from pathlib import Path
 from contact_core.errors import SceneError
 from contact_core.quantities import Quantity, value_out_of_range
 from contact_core.scene import units
-from contact_core.scene.toml import did_you_mean
+from contact_core.scene.other_names import meant
+from contact_core.scene.toml import did_you_mean, file_like
 
 Row = tuple[float, dict[str, float]]  # time [s] and values by signal
 
@@ -63,7 +64,7 @@ def _lines(path: Path, kind: str) -> list[tuple[int, list[str]]]:
             reader = csv.reader(file)
             lines = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
     except OSError as error:
-        raise SceneError(f"The {kind} file '{path}' cannot be read: {error.strerror}.") from None
+        raise SceneError(f"The {kind} file '{path}' cannot be read: {error.strerror}.{file_like(path)}") from None
     except (UnicodeDecodeError, csv.Error) as error:
         raise SceneError(f"The {kind} file '{path}' is not a CSV file in UTF-8: {error}.") from None
     if len(lines) < 2:
@@ -87,6 +88,9 @@ def _columns(header: list[str], where: str, signals: Mapping[str, Quantity]) -> 
             )
         name, unit = match[1], match[2].strip()
         if name not in signals:
+            other = meant("operation", name)
+            if other and {*other.keys} & signals.keys():
+                raise SceneError(f"{where}: there is no column '{name}'. {other.sentence}")
             raise SceneError(
                 f"{where}: there is no column '{name}'.{did_you_mean(name, list(signals))} "
                 f"Known are {', '.join(signals)}."

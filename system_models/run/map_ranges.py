@@ -74,6 +74,13 @@ class Ranges:
             )
         return found
 
+    def extreme(self) -> OperatingPoint:
+        """Return the point whose film is the thickest for its contact, with the most sliding."""
+        speed, half = self.entrainment[1], 0.5 * self.slide_roll[1]
+        return OperatingPoint(
+            self.load[0], speed * (1.0 + half), speed * (1.0 - half), self.temperature[0], radius_x=self.radius_x[0]
+        )
+
     @property
     def rows(self) -> tuple[tuple[str, float, float], ...]:
         """Name, lowest and highest value [SI] of each."""

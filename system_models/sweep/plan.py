@@ -1,5 +1,6 @@
 """What a sweep varies: keys of a scene, each on a grid, by choice, or within a range that samples fill."""
 
+import hashlib
 import itertools
 import math
 import re
@@ -83,6 +84,18 @@ class Plan:
     def shape(self) -> tuple[int, ...]:
         """Points along each axis: those of the choices, then that of the samples if there are any."""
         return (*(len(factor.choices) for factor in self.grid), *([len(self.shares)] if self.sampled else []))
+
+    @property
+    def text(self) -> str:
+        """What is varied, in words that are the same for the same plan alone."""
+        digest = hashlib.sha256(self.shares.tobytes()).hexdigest()[:16]
+        said = [
+            f"{f.key}={':'.join([f.text(f.low), f.text(f.high), *(['log'] if f.logarithmic else [])])}"
+            if f.sampled
+            else f"{f.key}={','.join(f.choices)}"
+            for f in self.factors
+        ]
+        return "; ".join([*said, *([f"{len(self.shares)} samples {digest}"] if self.sampled else [])])
 
     def points(self) -> Iterator[Point]:
         """Yield the points, the last axis fastest."""

@@ -33,6 +33,7 @@ class Task:
     settings: tuple[tuple[str, str], ...]  # of all points
     folder_of_duty: Path
     folder: Path  # of the files of the points
+    force: bool = False  # run points that look like mistakes, too
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,9 @@ def solve(task: Task, number: int, point: Point) -> Outcome:
     """Run the scene at a point and keep its result; a result that is there already is kept."""
     try:
         scene, duty = scene_at(task, point)
+        doubts = [] if task.force else scene.doubts(duty.named(scene))
+        if doubts:
+            return Outcome(number, f"{' '.join(doubts)} If this is meant, add --force.")
         origin, file = attributes(scene, duty), file_of(task, number)
         before = kept(file)
         if before is not None and before.attrs == origin:
@@ -149,8 +153,15 @@ def gathered(task: Task, plan: Plan, outcomes: dict[int, Outcome]) -> xr.Dataset
         coordinates["sample"] = ("sample", np.arange(len(plan.shares)), {"units": "1"})
     if alike:
         coordinates["time"] = first["time"]
-    origin = {"title": first.attrs["title"], "scene": task.scene, "method": plan.method}
-    return with_half_widths(xr.Dataset(variables, coordinates, origin))
+    return with_half_widths(
+        xr.Dataset(variables, coordinates, {"title": first.attrs["title"], **origin_of(task, plan)})
+    )
+
+
+def origin_of(task: Task, plan: Plan) -> dict[str, str]:
+    """Return the identity of a sweep, as attributes of its Dataset."""
+    given = " ".join(f"{key}={value}" for key, value in task.settings)
+    return {"scene": task.scene, "method": plan.method, "vary": plan.text, "settings": given}
 
 
 def rows(plan: Plan, dataset: xr.Dataset) -> xr.Dataset:

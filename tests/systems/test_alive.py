@@ -5,7 +5,7 @@ import threading
 import pytest
 
 from contact_core.progress import ALGORITHM, tell
-from system_models.cli import alive
+from system_models.cli import alive, progress
 
 
 class Bar:
@@ -69,3 +69,39 @@ def test_time_left_is_estimated_from_the_parts_done(monkeypatch: pytest.MonkeyPa
         clock[0] = now
         doing.told("instant", number, 8)
     assert doing.text() == "instant 5 of 8, about 8 s left of them"
+
+
+def test_time_left_of_parts_leaves_out_what_compiling_took(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = [100.0]
+    monkeypatch.setattr(alive, "monotonic", lambda: clock[0])
+    doing = alive._Doing()
+    doing.told("instant", 1, 8)
+    for depth_and_time in ((1, 101.0), (1, 102.0), (-1, 120.0), (-1, 131.0)):  # a kernel within another, 30 s
+        clock[0] = depth_and_time[1]
+        doing.begins() if depth_and_time[0] > 0 else doing.ends()
+    for number, now in ((2, 132.0), (5, 138.0)):
+        clock[0] = now
+        doing.told("instant", number, 8)
+    assert doing.text() == "instant 5 of 8, about 8 s left of them"
+
+
+def test_a_counter_shows_what_compiles_while_no_part_is_done(capsys: pytest.CaptureFixture[str]) -> None:
+    bar_moves = threading.Event()
+
+    class Wakes(alive._Doing):
+        def text(self) -> str:
+            bar_moves.set()
+            return "what is being done"
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(alive, "_Doing", Wakes)
+        with progress.counted("mine", "runs", 3) as show:
+            show(1, "mine, second")
+            bar_moves.clear()
+            assert bar_moves.wait(10.0)
+            progress.say("a finished part")
+    out, err = capsys.readouterr()
+    assert out == "a finished part\n"
+    assert "mine, second  33 %|" in err
+    assert "1/3 runs [" in err
+    assert "what is being done" in err

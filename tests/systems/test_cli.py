@@ -75,7 +75,7 @@ def test_a_run_prints_a_table_and_writes_three_files(
     assert out.startswith("Azam's case B")
     assert {"friction", "h_c", "lambda", "A_c", "W_c"} < set(" ".join(out.split("\n\n")[1:3]).split())
     assert "Pressures that drive tribofilm and wear: dry contact" in out
-    assert "\nBody 1: microroughness 4 nm rms, waves below 4 um (assumed in shipped scenes).\nBody 2: microro" in out
+    assert "\nBody 1: microroughness 4 nm rms, waves below 4 um (assumed: lapped steel).\nBody 2: microro" in out
     assert "0.6/0.6 min" in err
     folder = tmp_path / "results" / "mtm_zddp"
     assert {path.name for path in folder.iterdir()} == {"result.nc", "result.csv", "overview.png"}
@@ -165,11 +165,52 @@ def test_bad_input_is_refused_with_one_sentence_and_code_2(
     assert err.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["rn"], "there is no command 'rn'. Did you mean 'run'? `tribofmu` lists them"),
+        (
+            ["run", "mtm_zddp", "--hour", "3", "--dutty", "x.csv"],
+            "unrecognized arguments: --dutty x.csv. Did you mean '--duty'?",
+        ),
+        (["run", "mtm_zddp", "--nonsense", "3"], "unrecognized arguments: --nonsense 3.\n"),
+    ],
+)
+def test_a_mistyped_command_or_option_is_answered_with_one_like_it(
+    arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+    assert end.value.code == 2
+    assert said in capsys.readouterr().err
+
+
+def test_the_command_alone_says_how_to_start(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([]) == 2
+    assert "To start: `tribofmu run mtm_zddp`" in " ".join(capsys.readouterr().err.split())
+
+
+def test_files_in_the_folder_are_suggested_for_names_like_theirs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("ball.toml").write_text("", "utf-8")
+    Path("loads.csv").write_text("", "utf-8")
+    for given, said in (
+        (["run", "ball"], "There is no scene or machine 'ball'. Did you mean 'ball.toml'?"),
+        (["explain", "ball"], "There is no scene 'ball'. Did you mean 'ball.toml'?"),
+        (["run", "bal.toml"], "'bal.toml' cannot be read: No such file or directory. Did you mean 'ball.toml'?"),
+        (["run", "mtm_zddp", "--duty", "load.csv"], "No such file or directory. Did you mean 'loads.csv'?"),
+    ):
+        assert main(given) == 2
+        assert said in capsys.readouterr().err
+
+
 def test_one_pressure_for_oil_and_solids_goes_without_microroughness_alone(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     assert main(["build", "mtm_zddp", "--set", "film.criterion=lumped", "--out", str(tmp_path / "a.fmu")]) == 2
-    assert capsys.readouterr().err == f"tribofmu: {LUMPED} See docs/how-to/surfaces.md.\n"
+    assert capsys.readouterr().err == f"tribofmu: {LUMPED} See: tribofmu docs surfaces\n"
     assert Scene.from_toml("mtm_zddp", {"film.criterion": "lumped"} | HARD).film.lumped
 
 

@@ -53,6 +53,7 @@ def test_spaces_blank_lines_and_a_byte_order_mark_do_no_harm(tmp_path: Path) -> 
         ("time [s],load [N]\n1,1\n", r"line 2: time = 1 s, but the first row must be at time 0"),
         ("time [s],load [N]\n0,1\n5,1\n5,2\n", r"line 4: time = 5 s does not come after the 5 s of the row"),
         ("time [s],load [N]\n0,1,5\n", r"line 2: 3 values for 2 columns\. Put a comma between values"),
+        ("time [s],srr [%]\n0,1\n", r"line 1: there is no column 'srr'\. Give 'speed_1' and 'speed_2' \[m/s\]"),
         ("time [s],lod [N]\n0,1\n", r"line 1: there is no column 'lod'\. Did you mean 'load'\? Known are"),
         ("time [s],load\n0,1\n", r"line 1: column 'load' is not a name with a unit\. Write for example"),
         ("time [s],load [m]\n0,1\n", r"line 1: load = '1\.0 m' has the wrong unit: .* convertible to N"),

@@ -72,7 +72,7 @@ def test_likely_mistakes_are_asked_back_and_computed_if_they_are_meant(capsys: p
     assert "If this is meant, add --force." in err
     assert not Path("results").exists()
     assert main([*command, "--force"]) == 0
-    assert "tribofmu: warning: operation.speed_1" in capsys.readouterr().err
+    assert "tribofmu: warning: operation: speed_1 = 1.1" in capsys.readouterr().err
 
 
 def test_a_ratio_without_a_unit_that_looks_like_per_cent_is_asked_back(capsys: pytest.CaptureFixture[str]) -> None:

@@ -63,7 +63,22 @@ def test_roughness_below_the_grid_is_told_of_each_body(capsys: pytest.CaptureFix
     assert main(["surfaces", "mtm_zddp", *NO_ROUGHNESS, "surface_1.microroughness.rms=0 nm"]) == 0
     out = capsys.readouterr().out
     assert "\nno microroughness\n\nBody 2: smooth\n" in out
-    assert out.endswith("microroughness 16 nm rms, waves below 4 um (assumed in shipped scenes)\n")
+    assert out.endswith("microroughness 16 nm rms, waves below 4 um (assumed: ground steel)\n")
+
+
+def test_microroughness_of_a_measured_set_is_not_called_assumed(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    layer = 'microroughness = { rms = "3 nm", longest = "4 um" }  # waves that the image resolves'
+    Path("disc.toml").write_text(
+        f'[disc.surface_2]  # measured: Zygo\nmodel = "gaussian"\nrq = "50 nm"\n{layer}\n', "utf-8"
+    )
+    given = ["surface_2.set=disc.toml:disc", "surface_1.microroughness.rms=2 nm"]
+    assert main(["surfaces", "mtm_zddp", "--set", *given]) == 0
+    out = capsys.readouterr().out
+    assert "microroughness 2 nm rms, waves below 4 um (from a setting of the command, without a source)\n" in out
+    assert out.endswith("microroughness 3 nm rms, waves below 4 um (measured: Zygo; set disc, disc.toml)\n")
 
 
 AFFINE = ["surface_1.model=self_affine", "surface_1.hurst=0.8", "surface_1.roll_off=60 um", "surface_1.cut_off=3 um"]

@@ -1,5 +1,7 @@
 """Numbers that look like mistakes are doubted, with the way out; those of the shipped scenes are not."""
 
+from dataclasses import replace
+
 import pytest
 
 from contact_core import Scene, SceneError, shipped_scenes
@@ -42,7 +44,7 @@ def test_the_steps_of_a_duty_are_doubted_too():
     table = Scene.from_toml("mtm_zddp").to_dict()
     table["operation"]["steps"] = [{"time": "60 s", "speed_2": "-0.1 m/s"}]
     (doubt,) = Scene.from_dict(table).doubts()
-    assert doubt.startswith("operation.steps[0].speed_1 = 0.1025 m/s and speed_2 = -0.1 m/s")
+    assert doubt.startswith("operation.steps[0]: speed_1 = 0.1025 m/s and speed_2 = -0.1 m/s")
 
 
 @pytest.mark.parametrize("speed", ["0 m/s", "-0.03 m/s"])  # a body at rest; a cam's follower that turns back
@@ -55,3 +57,12 @@ def test_a_refusal_that_follows_from_an_impossible_roughness_names_that_first():
         Scene.from_toml("mtm_zddp", {"surface_2.rq": "0.1 mm", "surface_2.correlation_length": "4 mm"})
     said = str(refusal.value)
     assert said.index("surface_2 has 0.0001 m rms") < said.index("too long for film.domain")
+
+
+def test_points_that_are_given_are_doubted_in_place_of_the_scenes_and_the_first_of_many_is_told():
+    scene = Scene.from_toml("mtm_zddp", {"operation.speed_2": "-0.1 m/s"})
+    good, bad = (replace(scene.operation.point, speed_2=speed) for speed in (0.1, -0.11))
+    assert scene.doubts([("row 1", good)]) == []
+    (doubt,) = scene.doubts([("row 1", good), ("row 2", bad), ("row 3", replace(bad, load=2.0)), ("row 4", bad)])
+    assert doubt.startswith("row 2: speed_1 = 0.1025 m/s and speed_2 = -0.11 m/s")
+    assert doubt.endswith("of the same sign. 1 more are like it.")
