@@ -14,8 +14,9 @@
     stribeck, stribeck_report     Stribeck curves at given times of rubbing; their table and picture
     fit, fit_data, fit_model      constants of a scene from measured numbers: the fit, the numbers, the model
     fit_estimate, fit_report      least squares and intervals; table, picture and named set
-    map_ranges, map_workers       map of a scene: its histories, processes that solve them
-    map_build, map_report         the map, and what held-back histories say of it
+    workers                       processes or a cluster that solve the parts of maps and sweeps
+    map_ranges, map_build         map of a scene: its histories, and the map
+    map_report                    what held-back histories say of it
     cosim_report                  tables and picture of any simulated system
 
 A contact is a system of one FMU: the master drives it through its duty.

@@ -27,7 +27,7 @@ from contact_core.regression.outputs import half_widths
 from contact_core.scene import Scene
 
 from .map_ranges import Ranges
-from .map_workers import done_by, workers
+from .workers import done_by, workers
 
 Array = NDArray[np.float64]
 

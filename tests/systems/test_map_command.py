@@ -19,7 +19,7 @@ from system_models.cli.main import main
 from system_models.run import map_build
 from system_models.run.map_build import Order, is_held, scene_of_histories, tasks
 from system_models.run.map_ranges import Ranges
-from system_models.run.map_workers import done_by, workers
+from system_models.run.workers import done_by, workers
 
 RANGES = ("--temperature", "350K:356K")
 CHANGES = ("--set", *(f"{key}={value}" for key, value in SMALL.items()))

@@ -1,4 +1,4 @@
-"""Workers that solve the knots of a map: this process, others on this machine, or a cluster."""
+"""Workers that solve the knots of maps and the points of sweeps: this process, others on this machine, or a cluster."""
 
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
