@@ -17,8 +17,8 @@ from fmu_src.package.build import build
 
 from ..run.contact import run
 from ..run.duty import Duty
-from ..run.workers import done_by, workers
 from ..run.origin import attributes
+from ..run.workers import done_by, workers
 from ..store.results import to_dataset, with_half_widths
 from .plan import Factor, Plan, Point
 
