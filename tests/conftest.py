@@ -1,4 +1,4 @@
-"""What all tests share: a test's marker is the folder it lies in, and random inputs repeat in every run."""
+"""What all tests share: a test's marker is the folder it lies in, random inputs repeat in every run, long tests wait for .ci/full."""
 
 import os
 import signal
@@ -25,5 +25,8 @@ settings.load_profile("repeatable")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    later = pytest.mark.skipif("TRIBOFMU_TEST_LONG" not in os.environ, reason="TRIBOFMU_TEST_LONG is not set")
     for item in items:
+        if item.get_closest_marker("long"):
+            item.add_marker(later)
         item.add_marker(item.path.relative_to(Path(__file__).parent).parts[0])

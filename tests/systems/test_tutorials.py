@@ -1,6 +1,5 @@
 """What docs/tutorials tell to do works as it stands: the blocks of a page run in their order."""
 
-import os
 import re
 import shlex
 import sys
@@ -53,7 +52,7 @@ def test_pin_on_disc() -> None:
     assert 1.9 < float(names["twice"].wear_depth_1[-1]) / names["ball"] < 2.1
 
 
-@pytest.mark.skipif("TRIBOFMU_TEST_TUTORIALS" not in os.environ, reason="TRIBOFMU_TEST_TUTORIALS is not set")
+@pytest.mark.long
 def test_gear_elsewhere() -> None:
     result = followed("gear_elsewhere")["result"]
     assert result["valid"].all() and (result["h_c"] > 0.0).all()
