@@ -232,7 +232,7 @@ class Translator:
     def _bound(self, closure: Closure, function: Any, operands: list[Any], named: dict[str, Any]) -> dict[str, Any]:
         """Return the parameters by name."""
         if not isinstance(function, Closure):
-            given = _signature(function).bind(*operands, **named)
+            given = inspect.signature(function).bind(*operands, **named)
             given.apply_defaults()
             return dict(given.arguments)
         names = [each.arg for each in closure.node.args.args + closure.node.args.kwonlyargs]
@@ -354,7 +354,8 @@ class Translator:
         return self._cache[key]
 
     def _new_name(self, name: str) -> str:
-        found = unique(name.lstrip("_"), self._names, *(unit.names for unit in self._units))
+        taken = self._names.union(*(unit.names for unit in self._units))
+        found = unique(name.lstrip("_"), taken)
         self._names.add(found)
         return found
 
@@ -426,9 +427,6 @@ class Translator:
         head = code.head(result, name, given)
         self.functions.append((name, "\n".join([*code.comment(about(closure)), *head, "{", *code.printed(block), "}"])))
         return CFunction(name, used, template, all_fields, unit.may_fail, None, sets)
-
-
-_signature = functools.cache(inspect.signature)
 
 
 def _bare(function: Any) -> types.FunctionType:

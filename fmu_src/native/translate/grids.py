@@ -240,9 +240,11 @@ def settled(unit: Writer, value: Any, name: str = "values", *, cheap: bool = Tru
 
 
 def _is_lazy(value: Any) -> bool:
+    if isinstance(value, Num) or not values.is_dynamic(value):
+        return False
     if isinstance(value, Grid):
         return not isinstance(value, Stored)
-    return not values.is_whole(value) and any(_is_lazy(item) for _, item in parts(value) or ())
+    return any(_is_lazy(item) for _, item in parts(value) or ())
 
 
 def both_stored(one: Any, other: Any) -> tuple[Any, Any]:

@@ -39,7 +39,7 @@ def fields_of(template: Any, names: list[str]) -> list[str]:
         if place.isdigit():
             first = names[int(place)] if int(place) < len(names) else _ordinal(int(place))
             own = "_".join([first, *(str(int(part) + 1) for part in rest)])
-        found.append(unique(re.sub(r"\W+", "_", own).strip("_") or "value", KEYWORDS, found))
+        found.append(unique(re.sub(r"\W+", "_", own).strip("_") or "value", KEYWORDS.union(found)))
     return found
 
 

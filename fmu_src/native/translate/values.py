@@ -2,7 +2,6 @@
 
 import dataclasses
 import enum
-import functools
 import math
 from collections.abc import Callable
 from types import FunctionType
@@ -306,35 +305,23 @@ _WHOLE = frozenset({float, int, bool, str, type(None), np.float64, FunctionType,
 
 def parts(value: Any) -> list[tuple[str, Any]] | None:
     """Return names and members of a value that has some; None of one that is whole."""
-    return _parts_of(type(value))(value)
-
-
-@functools.cache
-def _parts_of(kind: type) -> Callable[[Any], list[tuple[str, Any]] | None]:
-    """Return the function that `parts` is for values of a type."""
-    if issubclass(kind, Grid):
-        return kind.members
-    if issubclass(kind, tuple) and hasattr(kind, "_fields"):
-        return lambda value: list(zip(value._fields, value, strict=True))
-    if issubclass(kind, tuple | list):
-        return lambda value: [(str(i), item) for i, item in enumerate(value)]
-    if issubclass(kind, dict):
-        return lambda value: [(str(key), item) for key, item in value.items()]
-    if issubclass(kind, np.ndarray):
-        return _parts_of_array
-    if issubclass(kind, Closure):
-        return lambda value: list(value.names.items())
-    if issubclass(kind, Method):
-        return lambda value: [("", value.owner)]
-    if dataclasses.is_dataclass(kind):
-        return lambda value: list(vars(value).items())
-    return lambda value: None
-
-
-def _parts_of_array(value: np.ndarray) -> list[tuple[str, Any]] | None:
-    if value.dtype != object:
-        return None
-    return [("_".join(map(str, place)), item) for place, item in np.ndenumerate(value)]
+    if isinstance(value, Grid):
+        return value.members()
+    if isinstance(value, tuple) and hasattr(value, "_fields"):
+        return list(zip(value._fields, value, strict=True))
+    if isinstance(value, tuple | list):
+        return [(str(i), item) for i, item in enumerate(value)]
+    if isinstance(value, dict):
+        return [(str(key), item) for key, item in value.items()]
+    if isinstance(value, np.ndarray) and value.dtype == object:
+        return [("_".join(map(str, place)), item) for place, item in np.ndenumerate(value)]
+    if isinstance(value, Closure):
+        return list(value.names.items())
+    if isinstance(value, Method):
+        return [("", value.owner)]
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return list(vars(value).items())
+    return None
 
 
 def rebuilt(value: Any, members: list[Any]) -> Any:
@@ -362,20 +349,14 @@ def rebuilt(value: Any, members: list[Any]) -> Any:
     return copy
 
 
-def is_whole(value: Any) -> bool:
-    """Return True for what has no members, and for records that are known to have no number at run time."""
-    return type(value) in _WHOLE or id(value) in _static
-
-
 def is_dynamic(value: Any) -> bool:
     """Return True if any number in a value is known at run time only."""
     if isinstance(value, Num | Grid):
         return True
-    if is_whole(value):
+    if type(value) in _WHOLE or id(value) in _static:
         return False
-    for _, item in parts(value) or ():
-        if type(item) not in _WHOLE and is_dynamic(item):
-            return True
+    if any(is_dynamic(item) for _, item in parts(value) or ()):
+        return True
     _remember(value)
     return False
 
@@ -390,12 +371,11 @@ def leaves(value: Any, name: str = "") -> list[tuple[str, Num]]:
 def _collect(value: Any, name: str, found: list[tuple[str, Num]]) -> None:
     if isinstance(value, Num):
         found.append((name, value))
-    elif id(value) not in _static:
+    elif not (type(value) in _WHOLE or id(value) in _static):
         before = len(found)
         for part, item in parts(value) or ():
-            if type(item) not in _WHOLE:
-                own = part if not part[:1].isdigit() or not name else f"{name}_{part}"
-                _collect(item, name if isinstance(value, Grid) else own, found)
+            own = part if not part[:1].isdigit() or not name else f"{name}_{part}"
+            _collect(item, name if isinstance(value, Grid) else own, found)
         if len(found) == before:
             _remember(value)
 
@@ -404,14 +384,13 @@ def replaced(value: Any, by: Callable[[Num], Any]) -> Any:
     """Return a value with every number at run time replaced, in the order of `leaves`."""
     if isinstance(value, Num):
         return by(value)
-    if is_whole(value):
+    if type(value) in _WHOLE or id(value) in _static:
         return value
-    others, changed = [], False
-    for _, item in parts(value) or ():
-        other = item if type(item) in _WHOLE else replaced(item, by)
-        changed = changed or other is not item
-        others.append(other)
-    return rebuilt(value, others) if changed else value
+    members = [item for _, item in parts(value) or ()]
+    others = [replaced(item, by) for item in members]
+    if any(one is not other for one, other in zip(members, others, strict=True)):
+        return rebuilt(value, others)
+    return value
 
 
 def _remember(value: Any) -> None:
