@@ -46,6 +46,7 @@ def test_zddp_running_in() -> None:
     assert set(names["stribeck"].friction_coefficient.dims) == {"rubbing_time", "entrainment_speed"}
 
 
+@pytest.mark.long
 def test_pin_on_disc() -> None:
     names = followed("pin_on_disc")
     assert names["ratio"] > 100.0
@@ -63,6 +64,7 @@ def test_every_tutorial_is_followed() -> None:
     assert {path.stem for path in FOLDER.glob("*.md")} <= tests
 
 
+@pytest.mark.long
 def test_own_oil() -> None:
     names = followed("own_oil")
     assert float(names["friction"].max() / names["friction"].min()) > 1.1
