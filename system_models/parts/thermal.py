@@ -9,7 +9,7 @@ from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
+import scipy  # its parts are loaded at their first use
 
 from contact_core.errors import SceneError
 from contact_core.quantities import parameter
@@ -283,4 +283,4 @@ class _Course:
 
         if beyond(first) >= 0.0:  # by rounding, where one regime ends and the next begins
             return float(first), turn
-        return float(brentq(beyond, first, times[found], xtol=1e-14 * until, rtol=1e-15)), turn
+        return float(scipy.optimize.brentq(beyond, first, times[found], xtol=1e-14 * until, rtol=1e-15)), turn
