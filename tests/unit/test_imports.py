@@ -10,7 +10,9 @@ import pytest
 
 import contact_core.kernels
 
-_HEAVY = ("numba", "llvmlite", "pyfftw", "scipy.fft", "scipy.special", "scipy.sparse", "scipy.ndimage", "xarray")
+_HEAVY = (
+    "numba", "llvmlite", "pyfftw", "scipy.fft", "scipy.linalg", "scipy.special", "scipy.sparse", "scipy.ndimage", "xarray"
+)  # fmt: skip
 
 _FAST_LEVEL = """
 scene = Scene.from_toml("mtm_zddp").at_level("regression")
