@@ -18,8 +18,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 import scipy  # its parts are loaded at their first use
+from numpy.typing import NDArray
 
 from .scene import Scene
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 import scipy  # its parts are loaded at their first use
+from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
 from .estimate import OnGrid, Outputs, stated_errors_of_film

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 import scipy  # its parts are loaded at their first use
+from numpy.typing import NDArray
 
 from ..fmu.instance import Instance
 from ..numerics.algorithms import ALGORITHMS

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 import scipy  # its parts are loaded at their first use
+from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Matrix = tuple[tuple[float, ...], ...]  # rows

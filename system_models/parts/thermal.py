@@ -8,8 +8,8 @@ from itertools import chain
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 import scipy  # its parts are loaded at their first use
+from numpy.typing import NDArray
 
 from contact_core.errors import SceneError
 from contact_core.quantities import parameter
