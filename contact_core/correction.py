@@ -18,8 +18,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve
 
 from .scene import Scene
 
@@ -184,9 +184,9 @@ class Conditioner:
             return None
         places, pairs = given.places[known], given.pairs[known]
         noise = law.nugget + given.own[known, output] ** 2
-        factor = cho_factor(covariance(law, pairs, places, pairs, places) + np.diag(noise))
+        factor = scipy.linalg.cho_factor(covariance(law, pairs, places, pairs, places) + np.diag(noise))
         off = given.off[known, output]
-        weights = cho_solve(factor, off)
+        weights = scipy.linalg.cho_solve(factor, off)
         surprise = _WIDE * math.sqrt(float(off @ weights) / len(off))  # one, if they deviate as their half widths say
         return _Known(law, pairs, places, factor, weights, law.wider * max(surprise, 1.0))
 
@@ -199,7 +199,7 @@ class Conditioner:
                 continue
             across = covariance(known.law, pairs[usable], places[usable], known.pairs, known.places)
             means[usable, k] = across @ known.weights
-            told = np.einsum("ij,ji->i", across, cho_solve(known.factor, across.T))
+            told = np.einsum("ij,ji->i", across, scipy.linalg.cho_solve(known.factor, across.T))
             lefts[usable, k] = np.minimum(known.wider * np.sqrt(np.clip(1.0 - told, 0.0, 1.0)), 1.0)
         return Conditioned(means, lefts)
 

@@ -1,9 +1,11 @@
-"""What all tests share: a test's marker is the folder it lies in, and random inputs repeat in every run."""
+"""What all tests share: markers, of which `long` waits for .ci/full; random inputs repeat in every run."""
 
 import os
 import signal
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 # the benchmarks; behind the installed packages, which are what is tested
 sys.path.append(str(Path(__file__).parents[1]))
@@ -11,6 +13,7 @@ sys.path.append(str(Path(__file__).parents[1]))
 # before numpy is loaded: threads that wait for each other on matrices of six rows take half of the time of some files
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+import lark
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -25,5 +28,24 @@ settings.load_profile("repeatable")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    later = pytest.mark.skipif("TRIBOFMU_TEST_LONG" not in os.environ, reason="TRIBOFMU_TEST_LONG is not set")
     for item in items:
+        if item.get_closest_marker("long"):
+            item.add_marker(later)
         item.add_marker(item.path.relative_to(Path(__file__).parent).parts[0])
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _each_name_parsed_once() -> Iterator[None]:
+    """fmpy parses the names of an FMU's variables whenever it validates one, which takes half a second."""
+    parse, known = lark.Lark.parse, dict[tuple[str, str], Any]()
+
+    def parse_once(self: lark.Lark, text: str) -> Any:
+        key = self.source_grammar, text
+        if key not in known:
+            known[key] = parse(self, text)
+        return known[key]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(lark.Lark, "parse", parse_once)
+        yield

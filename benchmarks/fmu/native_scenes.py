@@ -122,6 +122,8 @@ CHOICES: dict[str, list[Change]] = {
     "change": [{}, {"control.change": "0.5 nm"}],
 }
 
+COSTLY = ("bulk", "fatigue")  # Python is slow where bodies warm up; classes of stress are many equations
+
 
 def scene_of(changes: Change) -> Scene:
     return Scene.from_toml("mtm_zddp", changes | {"film.model": "regression"})
@@ -143,7 +145,8 @@ def selection(seed: int = 0) -> Iterator[tuple[str, Change]]:
     left = {slot: rng.sample(range(len(listed)), len(listed)) for slot, listed in CHOICES.items()}
     while any(left.values()):
         numbers = {slot: rest[-1] if rest else rng.randrange(len(CHOICES[slot])) for slot, rest in left.items()}
-        numbers["bulk"] = numbers["bulk"] if left["bulk"] else 0  # Python is slow where bodies warm up
+        for slot in COSTLY:  # once for each choice
+            numbers[slot] = numbers[slot] if left[slot] else 0
         while not usable(numbers):
             slot = rng.choice([each for each in numbers if each != "tribofilm"])
             numbers[slot] = rng.randrange(len(CHOICES[slot]))

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
+import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
 
 from ..errors import ConvergenceError
 from .estimate import OnGrid, Outputs, stated_errors_of_film
@@ -151,7 +151,7 @@ def moved(state: FilmState, old: Grid, new: Grid) -> FilmState:
     return FilmState(pressure, fluid, on(state.solid) > 0.5, mass, state.rigid_gap)
 
 
-def _weights(nodes: Array, at: Array) -> csr_array:
+def _weights(nodes: Array, at: Array) -> "scipy.sparse.csr_array":
     """Return the matrix of linear interpolation from nodes to places; constant beyond the nodes."""
     place = np.zeros(at.size)
     if nodes.size > 1:
@@ -159,7 +159,7 @@ def _weights(nodes: Array, at: Array) -> csr_array:
     low = np.minimum(place.astype(np.int64), max(nodes.size - 2, 0))
     high, part, row = np.minimum(low + 1, nodes.size - 1), place - low, np.arange(at.size)
     entries = np.concatenate([1.0 - part, part]), (np.tile(row, 2), np.concatenate([low, high]))
-    return csr_array(entries, shape=(at.size, nodes.size))
+    return scipy.sparse.csr_array(entries, shape=(at.size, nodes.size))
 
 
 def _next(spacings: Sequence[float], at: int, excess: float) -> int:

@@ -5,9 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from ..fmu.instance import Instance
 from ..numerics.algorithms import ALGORITHMS
@@ -112,8 +111,8 @@ def sorted_loops(names: list[str], edges: list[tuple[str, str]]) -> list[list[st
         return []
     pairs = sorted({(number[a], number[b]) for a, b in edges})
     rows, columns = [a for a, _ in pairs], [b for _, b in pairs]
-    graph = coo_array((np.ones(len(pairs)), (rows, columns)), shape=(len(names), len(names)))
-    count, labels = connected_components(graph, connection="strong")
+    graph = scipy.sparse.coo_array((np.ones(len(pairs)), (rows, columns)), shape=(len(names), len(names)))
+    count, labels = scipy.sparse.csgraph.connected_components(graph, connection="strong")
     groups = [[name for name, label in zip(names, labels, strict=True) if label == n] for n in range(count)]
     waiting = {n: {int(labels[a]) for a, b in pairs if labels[b] == n and labels[a] != n} for n in range(count)}
     result = []

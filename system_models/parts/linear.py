@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
+import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
-from scipy.linalg import expm
 
 Array = NDArray[np.float64]
 Matrix = tuple[tuple[float, ...], ...]  # rows
@@ -42,5 +42,5 @@ def _block(matrix: Matrix, entry: Matrix) -> Array:
 
 def exponential(matrix: Array) -> Array:
     """Return the exponential of a matrix [n, n]."""
-    found: Array = expm(matrix)
+    found: Array = scipy.linalg.expm(matrix)
     return found

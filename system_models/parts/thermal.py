@@ -8,8 +8,8 @@ from itertools import chain
 from typing import ClassVar
 
 import numpy as np
+import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from contact_core.errors import SceneError
 from contact_core.quantities import parameter
@@ -283,4 +283,4 @@ class _Course:
 
         if beyond(first) >= 0.0:  # by rounding, where one regime ends and the next begins
             return float(first), turn
-        return float(brentq(beyond, first, times[found], xtol=1e-14 * until, rtol=1e-15)), turn
+        return float(scipy.optimize.brentq(beyond, first, times[found], xtol=1e-14 * until, rtol=1e-15)), turn

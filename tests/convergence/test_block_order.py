@@ -21,15 +21,14 @@ CHEAP = {
 def test_wear_of_smooth_bodies_converges_with_first_order_in_the_blocks():
     smooth = CHEAP | {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "control.dry_instants": "1", "wear.bare": "1e-4"}
     found = []
-    for longest in (120.0, 60.0, 30.0, 15.0):
+    for longest in (120.0, 60.0, 30.0):
         scene = Scene.from_toml("azam_case_a", smooth | {"control.longest": f"{longest} s", "control.change": "1 um"})
         state, out = advance(scene, scene.operation.point, initial_state(scene), 7200.0)
         assert out.blocks_dry >= 7200.0 / longest
         found.append(state.bodies[0].wear.mean(axis=1).max())
     steps = np.abs(np.diff(found))
-    orders = np.log2(steps[:-1] / steps[1:])
     assert found[-1] > 1e-7
-    assert orders == approx([1.0, 1.0], abs=0.3)
+    assert np.log2(steps[0] / steps[1]) == approx(1.0, abs=0.3)
 
 
 def test_the_dose_of_a_smooth_body_evens_out_with_the_instants():

@@ -12,7 +12,7 @@ from contact_core.calls.point_contact import point_contact
 from contact_core.reference import hertz_point
 
 MODULUS, RADIUS = 230.47e9, 10e-3
-OF_POINTS = (0, 3, 4, 5, 6, 8, 9, 10, 14, 18, 19, 20)  # random contacts that cost next to nothing on the fine grid
+OF_POINTS = (0, 3, 4, 5, 6, 8)  # random contacts that cost next to nothing on the fine grid
 OF_LINES = tuple(range(12))
 OIL = dict(reduced_modulus=MODULUS, viscosity=0.01, pressure_viscosity=15e-9, hardness=6e9, tolerance=1e-3)
 

@@ -1,4 +1,4 @@
-"""What a run says about its own errors, against a run with ten times finer blocks."""
+"""What a run says about its own errors, against a run with five times finer blocks."""
 
 import numpy as np
 import pytest
@@ -51,7 +51,7 @@ def course(changes):
 
 @pytest.fixture(scope="module")
 def runs():
-    return course({}), course({"control.change": "0.3 nm", "control.longest": "12 s"})
+    return course({}), course({"control.change": "0.6 nm", "control.longest": "24 s"})
 
 
 def test_films_wear_and_contact_are_within_three_per_cent_of_the_finer_run(runs):

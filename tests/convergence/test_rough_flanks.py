@@ -9,7 +9,7 @@ SOFT = {  # a flank at load stage 9 with the hardness of its tribofilm
     "surface_2.rq": "0.23 um",
     "plasticity.hardness": "2.6 GPa",
     "plasticity.film_hardness": "2.6 GPa",
-    "film.width": "0.1 mm",
+    "film.width": "0.05 mm",
     "operation.load": "6400 N",
 }
 

@@ -161,8 +161,15 @@ def test_ramps_converge_in_time_with_the_order_asked_for(name, order):
     assert errors[2] < 4e-3 / order
 
 
-@pytest.mark.parametrize(("steps", "near"), [(32, 1e-3), (128, 2e-3)])
-@pytest.mark.parametrize("name", ["load", "radius"])
+@pytest.mark.parametrize(
+    ("name", "steps", "near"),
+    [
+        ("load", 32, 1e-3),
+        ("load", 128, 2e-3),
+        ("radius", 32, 1e-3),
+        pytest.param("radius", 128, 2e-3, marks=pytest.mark.long),
+    ],
+)
 def test_both_orders_converge_to_the_same_films(name, steps, near):
     """First-order steps of less than a node carry the film over by another rule, which differs on this grid."""
     first = 2.0 * after_ramp(name, steps, 1) - after_ramp(name, steps // 2, 1)

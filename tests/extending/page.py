@@ -43,7 +43,7 @@ class Tree:
         self.folder = folder
         for name in PACKAGES:
             apart = "kernels" if name == "contact_core" else ""
-            skipped = shutil.ignore_patterns("__pycache__", "*.so", "*.dll", apart)
+            skipped = shutil.ignore_patterns("*.so", "*.dll", apart)
             shutil.copytree(source(name), folder / name, ignore=skipped)
         (folder / "contact_core" / "kernels").symlink_to(source("contact_core") / "kernels", target_is_directory=True)
 
@@ -99,7 +99,8 @@ class Tree:
         work = self.folder / "work"
         work.mkdir(exist_ok=True)
         path = os.pathsep.join(map(str, (self.folder, ROOT)))
-        environment = os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1"}
+        # what is compiled to bytes stays compiled from one run to the next
+        environment = os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": ""}
         run = subprocess.run(command, cwd=work, env=environment, capture_output=True, text=True, check=False)
         assert (run.returncode != 0) == fails, run.stderr
         return run.stderr if fails else run.stdout

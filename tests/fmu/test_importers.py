@@ -16,6 +16,8 @@ from benchmarks.hosts.native_host import OK, NativeHost, plain_environment
 from fmu_src.flavours import VERSIONS
 from fmu_src.package.build import build
 
+pytestmark = pytest.mark.importers
+
 KINDS = [(flavour, fmi) for flavour, versions in VERSIONS.items() for fmi in versions]
 REFUSED = {  # by importer, and flavour or version of FMI
     ("fmuloader", "embedded"): "fmuloader asks for the functions of model exchange, which pythonfmu's binary lacks",

@@ -135,6 +135,7 @@ def test_a_host_without_python_can_load_it(native_program, folder):
         assert host.load(folder).loaded.status == OK
 
 
+@pytest.mark.long
 @pytest.mark.xfail(reason="pythonfmu finalises Python on another thread while the process ends", strict=False)
 def test_a_host_in_c_ends_cleanly(native_program, embedding, folder):
     """Not strict: of ten hosts, none to half crash."""

@@ -19,8 +19,8 @@ BLOCKS = 500  # small objects of Python
 @pytest.mark.parametrize(
     ("steps", "fmi", "options"),
     [
-        (30_000, 2, {}),
-        (4_000, 3, {"iterate": "aitken", "order": 1}),
+        (8_000, 2, {}),
+        (2_000, 3, {"iterate": "aitken", "order": 1}),
         (700, 2, {"tolerance": 1e-7, "order": 2}),
     ],
     ids=["saved in every step", "FMI 3, iterated", "with error control"],

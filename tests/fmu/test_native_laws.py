@@ -20,7 +20,14 @@ RUNS, STEPS = 4, 8
 ZIG = (sys.executable, "-m", "ziglang", "cc", "-O2")
 
 
-@pytest.mark.parametrize("changes", [pytest.param(each, id=name) for name, each in native_scenes.selection()])
+SCENES = [
+    pytest.param(each, id=name, marks=marks)
+    for seed, marks in ((0, ()), (1, pytest.mark.long))
+    for name, each in native_scenes.selection(seed)
+]
+
+
+@pytest.mark.parametrize("changes", SCENES)
 def test_c_does_what_python_does(changes, tmp_path):
     scene = native_scenes.scene_of(changes)
     found = differences(scene, NativeContact(scene, tmp_path), RUNS, STEPS)

@@ -35,8 +35,9 @@ def test_a_good_fmu_fails_no_rule_in_processes_of_its_own(slave: Callable[..., P
 
 
 def test_an_fmu_that_minds_its_calls_and_its_host_gets_no_note(tmp_path: Path) -> None:
-    found = deep_findings(models.build("echo", tmp_path), *LAX, *ROUGH)
-    assert verdicts(found, Verdict.PASS) == {"run", *LAX, *ROUGH}
+    fmu = models.build("echo", tmp_path)
+    assert verdicts(answers(fmu), Verdict.PASS) >= LAX - ROUGH
+    assert verdicts(deep_findings(fmu, *ROUGH), Verdict.PASS) == {"run", *ROUGH}
 
 
 FORGETFUL = """

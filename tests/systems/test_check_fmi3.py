@@ -20,8 +20,9 @@ def built(name: str, tmp_path: Path, **variant: object) -> Path:
 
 
 def test_an_fmu_that_minds_its_calls_and_its_host_gets_no_note(tmp_path: Path) -> None:
-    found = deep_findings(built("echo", tmp_path), *(LAX - {"stop time"}), *ROUGH)
-    assert verdicts(found, Verdict.PASS) == {"run", *LAX, *ROUGH} - {"stop time"}
+    fmu = built("echo", tmp_path)
+    assert verdicts(answers(fmu), Verdict.PASS) >= LAX - ROUGH - {"stop time"}
+    assert verdicts(deep_findings(fmu, *ROUGH), Verdict.PASS) == {"run", *ROUGH}
 
 
 @pytest.mark.parametrize("flavour", ["native", "isolated"])

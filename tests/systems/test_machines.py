@@ -222,6 +222,7 @@ def compared(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFa
     return Compared(file, {name: float(ours[name].values[-1]) for name in names})
 
 
+@pytest.mark.importers
 @pytest.mark.parametrize("importer", ["libcosimpy", "ecospy", "fmpy"])
 def test_importers_say_what_the_master_says(importer: str, compared: Compared, monkeypatch: pytest.MonkeyPatch) -> None:
     """They may differ by what inputs change in a step, as some reach them a step later, and in fmpy start at zero."""

@@ -138,6 +138,7 @@ def test_importers_that_convert_no_units_are_told_the_whole_factor(instrumented:
     assert {name: float(value) for name, value in gauge[0].attrib.items()} == {"factor": -2000.0, "offset": 0.0}
 
 
+@pytest.mark.importers
 @pytest.mark.parametrize(("importer", "lag"), [("libcosimpy", 1), ("ecospy", 0)])
 def test_importers_simulate_what_we_do(importer: str, lag: int, instrumented: System, folder: Path) -> None:
     """libcosim shows outputs that were read before the inputs of the same time were set."""
@@ -149,6 +150,7 @@ def test_importers_simulate_what_we_do(importer: str, lag: int, instrumented: Sy
     assert np.ptp(ours[:, 4]) == approx(0.5 * 2000.0 * np.ptp(ours[:, 2]), rel=1e-9)
 
 
+@pytest.mark.importers
 @pytest.mark.parametrize("importer", ["libcosimpy", "ecospy"])
 def test_importers_set_the_level_of_a_contact(importer: str, folder: Path) -> None:
     grid = {"film.points": "17"} | {f"surface_{i}.correlation_length": "32 um" for i in (1, 2)}
@@ -161,6 +163,7 @@ def test_importers_set_the_level_of_a_contact(importer: str, folder: Path) -> No
     np.testing.assert_allclose(imported(importer, file, ["contact.h_c"]), full, rtol=1e-9)
 
 
+@pytest.mark.importers
 @pytest.mark.parametrize("importer", ["libcosimpy", "ecospy"])
 def test_importers_run_three_instances_of_an_isolated_fmu(importer: str, folder: Path) -> None:
     """ecos loads and unloads the library at each instantiation, under the instances that there are."""

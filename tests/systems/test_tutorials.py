@@ -1,6 +1,5 @@
 """What docs/tutorials tell to do works as it stands: the blocks of a page run in their order."""
 
-import os
 import re
 import shlex
 import sys
@@ -80,13 +79,14 @@ def test_zddp_running_in() -> None:
     assert set(names["stribeck"].friction_coefficient.dims) == {"rubbing_time", "entrainment_speed"}
 
 
+@pytest.mark.long
 def test_pin_on_disc() -> None:
     names = followed("pin_on_disc")
     assert names["ratio"] > 100.0
     assert 1.9 < float(names["twice"].wear_depth_1[-1]) / names["ball"] < 2.1
 
 
-@pytest.mark.skipif("TRIBOFMU_TEST_TUTORIALS" not in os.environ, reason="TRIBOFMU_TEST_TUTORIALS is not set")
+@pytest.mark.long
 def test_gear_elsewhere() -> None:
     result = followed("gear_elsewhere")["result"]
     assert result["valid"].all() and (result["h_c"] > 0.0).all()
@@ -97,6 +97,7 @@ def test_every_tutorial_is_followed() -> None:
     assert {path.stem for path in FOLDER.glob("*.md")} <= tests
 
 
+@pytest.mark.long
 def test_own_oil() -> None:
     names = followed("own_oil")
     assert float(names["friction"].max() / names["friction"].min()) > 1.1
