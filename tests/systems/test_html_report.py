@@ -17,7 +17,7 @@ from parsed_page import COARSE, Parsed, self_contained
 from contact_core.state import RangeFlag
 from system_models.cli.main import main
 from system_models.explain import left_out
-from system_models.html_report import compare, trust
+from system_models.html_report import compare, errors, trust
 from system_models.html_report.chart import ticks
 from system_models.html_report.maps import decoded, encoded
 from system_models.html_report.opened import Run, open_run
@@ -132,7 +132,7 @@ def test_results_of_versions_that_knew_fewer_causes_can_be_read(opened: Run) -> 
     known = {name: {c: half for c, half in each.items() if c != "inlet"} for name, each in opened.causes[""].items()}
     older = replace(opened, causes={"": known})
     assert known != opened.causes[""]
-    assert "steps in time" in trust.sections(older)
+    assert "steps in time" in errors.sections(older)
 
 
 def test_scene_laws_versions_and_digests_are_told(parsed: Parsed, opened: Run) -> None:

@@ -160,7 +160,7 @@ def test_ball_and_disc_speeds_say_which_body_is_the_faster_one(
     (point,) = Duty.from_csv("mtm_duty.csv", Scene.from_toml("mtm_zddp").operation.point).points
     assert (point.load, point.speed_1, point.speed_2) == approx((30.1, 0.05, 0.15), rel=1e-9)
     assert point.temperature == approx(373.25, rel=1e-9)
-    assert main(["log", "mtm.txt", "--faster", "1"]) == 0
+    assert main(["log", "mtm.txt", "--faster", "1", "--force"]) == 0
     (point,) = Duty.from_csv("mtm_duty.csv", Scene.from_toml("mtm_zddp").operation.point).points
     assert (point.speed_1, point.speed_2) == approx((0.15, 0.05), rel=1e-9)
 
@@ -177,9 +177,9 @@ def test_a_pin_stands_still_and_has_its_own_column_of_load(
         "time [s]": "0", "load [N]": "12", "speed_1 [m/s]": "0", "speed_2 [m/s]": "0.2", "temperature [degC]": "100.1"
     }  # fmt: skip
     Path("pin.txt").write_text(RUBBED.format(kind="TIMED", rows=PIN), "utf-8")
-    assert main(["log", "pin.txt"]) == 2
+    assert main(["log", "pin.txt", "--force"]) == 2
     assert "neither a rolling speed nor a slide-to-roll ratio" in capsys.readouterr().err
-    assert main(["log", "pin.txt", "--srr", "200 %", "--faster", "2"]) == 0
+    assert main(["log", "pin.txt", "--srr", "200 %", "--faster", "2", "--force"]) == 0
     assert Path("pin_duty.csv").read_text().splitlines()[1].split(",")[2:4] == ["0", "0.2"]
 
 
