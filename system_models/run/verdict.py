@@ -73,7 +73,9 @@ def sentence(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> 
     if not found:
         return f"Verdict: all {total} rows were computed; no errors are stated."
     parts = [f"{', '.join(words)}{cause and f' ({cause})'}" for cause, words in found.items()]
-    return f"Verdict: known at the end: {'; '.join(parts)}. {way_out([scene])}".rstrip()
+    cut = any(_CAUSES["inlet"] in cause for cause in found)
+    way = "Surer: the domain that the line Inlet names." if cut else way_out([scene])
+    return f"Verdict: known at the end: {'; '.join(parts)}. {way}".rstrip()
 
 
 def known(last: xr.Dataset, errors: Mapping[str, Error]) -> list[Known]:

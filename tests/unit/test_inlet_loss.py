@@ -29,6 +29,7 @@ MEASURED = {
     "rubber line": (LINE, 1e-8, 0.2, 1e-3, RUBBER, {0.87: 0.194, 2.87: 0.043, 5.87: 0.0126}),
 }
 # the same of smooth bodies of shipped scenes, over the film that is found
+CUT = {"ball_209_inner": {"film.domain": "0.3 mm", "film.points": "65"}}  # in place of its own
 SCENES = {"ball_209_inner": 0.249, "dimple_rolling": 0.0245, "fzg_flank": 0.0118, "cam_tappet": 0.0032}
 BALL = {
     "load": 20.0, "radius_x": RADIUS, "reduced_modulus": STEEL, "speed_1": 2.0, "speed_2": 2.0, "viscosity": 0.02,
@@ -36,6 +37,11 @@ BALL = {
 }  # fmt: skip
 TWENTY_LINES = resources.files("system_models.cli").joinpath("new_scene.toml").read_text("utf-8")
 FAST = {"speed_1": "10 m/s", "speed_2": "10 m/s", "load": "500 N", "temperature": "60 degC", "duration": "120 s"}
+
+
+def scene_of(name):
+    """A shipped scene, on a domain that cuts the inlet off where its own does not."""
+    return Scene.from_toml(name, CUT.get(name, {}))
 
 
 def smooth(shape, speed, material, load, modulus):
@@ -56,7 +62,7 @@ def test_what_is_stated_covers_measured_losses_and_a_tenth_of_it_would_not(case)
 
 
 def test_what_is_stated_covers_the_shipped_scenes_and_a_tenth_of_it_would_not():
-    cases = {name: Case.bind(scene := Scene.from_toml(name), scene.operation.point) for name in SCENES}
+    cases = {name: Case.bind(scene := scene_of(name), scene.operation.point) for name in SCENES}
     assert all(true <= cases[name].missing_film for name, true in SCENES.items())
     assert all(true > 0.1 * cases[name].missing_film for name, true in SCENES.items())
 
@@ -95,7 +101,7 @@ def errors_of(scene, **outputs):
 def test_a_domain_that_cuts_the_inlet_off_is_a_cause_of_errors():
     out = {"h_c": 2e-7, "contact_load_ratio": 0.3, "friction_force": 10.0, "friction_solid": 8.0, "wear_depth_1": 1e-8}
     out |= {"roughness_1": 1e-8, "pressure_max": 1e9}
-    case, found = errors_of(Scene.from_toml("ball_209_inner"), **out)
+    case, found = errors_of(scene_of("ball_209_inner"), **out)
     assert found["h_c"].inlet == approx(0.7 * case.missing_film * 2e-7)
     assert found["h_c"].together > found["h_c"].inlet > found["h_c"].grid
     assert found["roughness_1"].inlet == 0.0 < found["pressure_max"].inlet < 1e9 * case.missing_film
