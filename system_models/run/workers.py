@@ -1,5 +1,7 @@
 """Workers that solve the knots of maps and the points of sweeps: this process, others on this machine, or a cluster."""
 
+import signal
+import threading
 from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
@@ -26,11 +28,40 @@ def workers(processes: int, where: str | None) -> Iterator[tuple[Executor | None
     elif processes == 1:
         yield None, 1
     else:
-        with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
+        with ProcessPoolExecutor(processes, get_context("spawn"), _end_when_interrupted) as pool:
             try:
                 yield pool, processes
             finally:
                 pool.shutdown(wait=False, cancel_futures=True)
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Hold an interrupt back while processes start.
+
+    Those that start inherit a blocked signal; without it they would print a traceback. Another thread of this process
+    may get the signal, so that its handler waits, too.
+    """
+    if threading.current_thread() is not threading.main_thread() or not hasattr(signal, "pthread_sigmask"):
+        yield  # interrupts are for the main thread; Windows has no masks
+        return
+    held: list[int] = []
+    handler = signal.signal(signal.SIGINT, lambda number, frame: held.append(number))
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+        signal.signal(signal.SIGINT, handler)
+        if held:
+            signal.raise_signal(signal.SIGINT)
+
+
+def _end_when_interrupted() -> None:
+    """Let an interrupt, also one that was held back, end this worker without a word: the command has the word."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
 
 
 @contextmanager
@@ -65,7 +96,8 @@ def done_by(
         return
     asked: set[Future[Result]] = set()
     while True:
-        asked.update(executor.submit(task, *each) for each in islice(arguments, _AHEAD * count - len(asked)))
+        with _interrupts_held():
+            asked.update(executor.submit(task, *each) for each in islice(arguments, _AHEAD * count - len(asked)))
         if not asked:
             return
         finished, asked = wait(asked, return_when=FIRST_COMPLETED)

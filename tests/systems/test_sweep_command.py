@@ -1,6 +1,11 @@
 """`tribofmu sweep`: which points a plan has, what a killed sweep keeps, and which key an output is due to."""
 
 import math
+import os
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -158,3 +163,19 @@ def test_sets_of_files_are_choices_and_patches_of_a_surface_have_a_mean_and_a_ba
     assert float(found["friction_coefficient_band"][0]) == approx(4.302653 * 0.01 / math.sqrt(3.0), rel=1e-6)
     assert found["count"].values.tolist() == [3, 2]
     assert patches_of(plan_of(["surface_2.rq=1 nm,2 nm"], None, "lhs")) == ()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks for children in /proc")
+def test_an_interrupt_while_workers_start_leaves_one_sentence(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "system_models.cli.main", "sweep", "mtm_zddp", *QUICK, "--processes", "2"]
+    command += ["--vary", "operation.load=20 N:80 N:4", "--out", str(tmp_path)]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        while process.poll() is None and len(children.read_text().split()) < 2:  # of them one keeps count of resources
+            time.sleep(0.01)
+        time.sleep(0.2)  # a worker has begun to import
+        os.killpg(process.pid, signal.SIGINT)
+        said = process.communicate()[1]
+    assert process.returncode == 130
+    assert "Traceback" not in said
+    assert "the same command goes on from there" in said
