@@ -98,7 +98,7 @@ def step(case: Case, state: ContactState, dt: float) -> Found:
 
 
 def derivatives(case: Case, state: ContactState) -> tuple[float, float, float, float]:
-    """Return the derivatives of friction_force by speed_1, speed_2, load and temperature."""
+    """Return the derivatives of friction_force by speed_1, speed_2, load and temperature, as a step of 0 has them."""
     begun = _begun(case.op, state)
     now = bound(case, begun).warmed(begun.temperatures)
     assert state.means is not None
