@@ -33,9 +33,8 @@ class Modes:
 
         Temperatures count from that of the surroundings.
         """
-        start, growth = self.inverse @ temperatures, self.entry @ heat
-        decay, first, second = _decays(np.multiply.outer(time, self.rates))
-        span = time[:, None]
+        start, growth, span = self.inverse @ temperatures, self.entry @ heat, time[:, None]
+        decay, first, second = _decays(span * self.rates)
         now = decay * start + span * first * growth
         summed = span * first * start + span**2 * second * growth
         return now @ self.shapes.T, summed @ self.shapes.T

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import chain
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 import scipy  # its parts are loaded at their first use
@@ -138,24 +138,35 @@ class ThermalNetwork(Part):
     def advance(self, state: State, inputs: Values, step: float) -> State:
         """Return the exact state after the step, with the moments at which thermostats reach or leave their limits."""
         nodes = len(self.nodes)
-        temperatures, energies = np.array(state[:nodes]), np.array(state[nodes:])
-        regimes, left = self._regimes(temperatures, inputs), step
-        for _ in range(_MOST_CHANGES):
-            course = self._course(temperatures, regimes, inputs)
+        temperatures, energies = [*state[:nodes]], [*state[nodes:]]
+        regimes, left, changes = self._regimes(temperatures, inputs), step, 0
+        while left > 0.0 or changes == 0:
+            piece = self._piece(regimes, temperatures, inputs, left, changes)
+            temperatures = piece.temperatures
+            energies = [energy + more for energy, more in zip(energies, piece.energies, strict=True)]
+            regimes, left, changes = piece.following, left - piece.time, changes + 1
+        return (*temperatures, *energies)
+
+    def _piece(self, regimes: Regimes, temperatures: list[float], inputs: Values, left: float, changes: int) -> "Piece":
+        """Return what `in_regimes` says; in C, where regimes are known at run time only, for one of all of them."""
+        return self.in_regimes(regimes, temperatures, inputs, left, changes)
+
+    def in_regimes(
+        self, regimes: Regimes, temperatures: list[float], inputs: Values, left: float, changes: int
+    ) -> "Piece":
+        """Return what happens until a thermostat leaves its regime, at most in `left` [s], after some such changes."""
+        course = self._course(np.array(temperatures), regimes, inputs)
+        time, following = left, regimes
+        if changes < _MOST_CHANGES:
             time, following = self._next_change(course, regimes, inputs, left)
-            temperatures, energies = course.end(time), energies + self._given(course, regimes, inputs, time)
-            regimes, left = following, left - time
-            if left <= 0.0:
-                return (*temperatures.tolist(), *energies.tolist())
-        course = self._course(temperatures, regimes, inputs)
-        return (*course.end(left).tolist(), *(energies + self._given(course, regimes, inputs, left)).tolist())
+        return Piece(time, following, course.end(time).tolist(), self._given(course, regimes, inputs, time).tolist())
 
     def heat_stored(self, temperatures: Sequence[float]) -> float:
         """Return the heat [J] that the nodes hold at temperatures [K] more than at the start."""
         pairs = zip(self.nodes, temperatures, strict=True)
         return sum(node.heat_capacity * (temperature - node.temperature) for node, temperature in pairs)
 
-    def _regimes(self, temperatures: Array, inputs: Values) -> Regimes:
+    def _regimes(self, temperatures: Sequence[float], inputs: Values) -> Regimes:
         found = []
         for held in self.thermostats:
             (low, high), now = _band(held, inputs), temperatures[self._place(held.node)]
@@ -165,25 +176,26 @@ class ThermalNetwork(Part):
     def _place(self, name: str) -> int:
         return [node.name for node in self.nodes].index(name)
 
-    def _course(self, temperatures: Array, regimes: Regimes, inputs: Values) -> "_Course":
+    def _course(self, temperatures: Array, regimes: Regimes, inputs: Values) -> "Course":
         ambient = inputs["temperature_ambient"]
         heat = np.array([sum(inputs[name] for name in node.heats) for node in self.nodes])
         for held, regime in zip(self.thermostats, regimes, strict=True):
             powers = (held.gain * (inputs[f"setpoint_{held.node}"] - ambient), -held.cooling, held.heating)
             heat[self._place(held.node)] += powers[regime]
-        return _Course(_modes(self, regimes), temperatures - ambient, heat, ambient)
+        return Course(_modes(self, regimes), temperatures - ambient, heat, ambient)
 
-    def _next_change(self, course: "_Course", regimes: Regimes, inputs: Values, left: float) -> tuple[float, Regimes]:
+    def _next_change(self, course: "Course", regimes: Regimes, inputs: Values, left: float) -> tuple[float, Regimes]:
         """Return the time until a thermostat leaves its regime, at most `left` [s], and the regimes from then on."""
-        changes = [(left, regimes)]
+        first, following = left, regimes
         for k, (held, regime) in enumerate(zip(self.thermostats, regimes, strict=True)):
             low, high = _band(held, inputs)
             least, most = ((low, high), (high, np.inf), (-np.inf, low))[regime]
             time, turn = course.leaves(self._place(held.node), least, most, left)
-            changes.append((time, (*regimes[:k], regime + turn, *regimes[k + 1 :])))
-        return min(changes, key=lambda change: change[0])
+            if time < first:
+                first, following = time, (*regimes[:k], regime + turn, *regimes[k + 1 :])
+        return first, following
 
-    def _given(self, course: "_Course", regimes: Regimes, inputs: Values, time: float) -> Array:
+    def _given(self, course: "Course", regimes: Regimes, inputs: Values, time: float) -> Array:
         """Return energies [J] that have gone to the surroundings and come from the thermostats after a time."""
         summed = course.summed(time)
         energies = [sum(loss * summed[self._place(name)] for name, loss in self._losses())]
@@ -246,8 +258,17 @@ def _modes(network: ThermalNetwork, regimes: Regimes) -> Modes:
     return Modes.of(np.array([node.heat_capacity for node in network.nodes]), conductances[:-1, :-1])
 
 
+class Piece(NamedTuple):
+    """What happens while no thermostat changes its regime."""
+
+    time: float  # [s]
+    following: Regimes  # from then on
+    temperatures: list[float]  # then [K]
+    energies: list[float]  # gone to the surroundings and come from the thermostats meanwhile [J]
+
+
 @dataclass(frozen=True)
-class _Course:
+class Course:
     """Temperatures against time, as long as no thermostat changes its regime."""
 
     modes: Modes
