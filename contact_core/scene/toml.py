@@ -66,7 +66,7 @@ def text_of(source: str | Path, kind: str = "scene") -> str:
     except UnicodeDecodeError as error:
         raise SceneError(f"The {kind} file '{source}' is not valid TOML: {error}.") from None
     names = list(shipped_scenes())
-    like = file_like(Path(f"{source}.toml")) or did_you_mean(str(source), names)
+    like = did_you_mean(str(source), names) or file_like(Path(f"{source}.toml"))
     raise SceneError(
         f"There is no scene '{source}'.{like} Shipped are {', '.join(names)}; or give the path of a .toml file."
     )
@@ -127,7 +127,9 @@ def did_you_mean(word: str, choices: list[str]) -> str:
 
 def file_like(path: Path) -> str:
     """Return " Did you mean ...?" if a file of this kind in the same folder is called much like it, else nothing."""
-    return did_you_mean(str(path), sorted(map(str, path.parent.glob(f"*{path.suffix}"))))
+    found = {file.stem: str(file) for file in sorted(path.parent.glob(f"*{path.suffix}"))}
+    close = difflib.get_close_matches(path.stem, list(found), n=1, cutoff=0.6)
+    return f" Did you mean '{found[close[0]]}'?" if close else ""
 
 
 def models_of(path: str) -> tuple[type[Model], ...]:

@@ -93,6 +93,7 @@ def run(arguments: argparse.Namespace) -> int:
         print("Note: C is written and compiled, for each platform in turn; this may take minutes.", file=sys.stderr)
     from .build import build
 
+    print(f"Note: building '{out}'; the first time kernels compile, which takes minutes.", file=sys.stderr)
     try:
         recorded = _recorded(arguments.python)
         print(build(scene, out, arguments.flavour, fmi=arguments.fmi, python=recorded, reference=True))

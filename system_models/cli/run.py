@@ -94,7 +94,7 @@ def _check_name(name: str) -> None:
     """Raise ContactError if nothing that is shipped is called so, and it is no file."""
     shipped = [*shipped_scenes(), *files.shipped()]
     if not name.endswith(".toml") and name not in shipped:
-        like = file_like(Path(f"{name}.toml")) or did_you_mean(name, shipped)
+        like = did_you_mean(name, shipped) or file_like(Path(f"{name}.toml"))
         raise ContactError(
             f"There is no scene or machine '{name}'.{like} Shipped are {', '.join(shipped)}; or give the path of a "
             ".toml file."

@@ -8,7 +8,7 @@ from contact_core.scene import OperatingPoint
 from .assembly import Assembly
 from .kind import Kind
 from .reading import Machine
-from .registry import KINDS
+from .registry import kinds
 from .timeline import Timeline, read
 
 _OF_CONTACT = ("entrainment_speed", "slide_roll_ratio", "load")  # signals of a duty that set a contact's inputs
@@ -20,7 +20,7 @@ def doubts(machine: Machine, assembly: Assembly) -> list[str]:
     Loads and speeds of a contact follow from the duty alone where this is that of a test rig; those of other machines
     are known after the run.
     """
-    kind = KINDS[machine.kind]
+    kind = kinds()[machine.kind]
     found: dict[str, str] = {}  # contact by sentence: contacts of one scene have the same
     for name, contact in assembly.contacts.items():
         scene = contact.own_scene

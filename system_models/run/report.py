@@ -1,5 +1,6 @@
 """The report of a contact's run: a short table, closing lines, and one picture."""
 
+import json
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -34,6 +35,7 @@ _BELOW = (  # of runs with stresses; those of damage where there is any
     ("pitted 1", "%", "micropitted_area_1", 100.0, 2),
     ("pitted 2", "%", "micropitted_area_2", 100.0, 2),
 )
+_OFF = {"tribofilm": ("tribofilm_1", "tribofilm_2"), "wear": ("wear_depth_1", "wear_depth_2")}  # columns of a law
 _WITH_ERRORS = {  # in the table; of the others the result has them
     "friction_coefficient", "h_c", "tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2", "contact_load_ratio"
 }  # fmt: skip
@@ -79,10 +81,12 @@ def table(dataset: xr.Dataset, width: float = math.inf) -> str:
     rows = list(range(len(time)))
     if len(time) > _FEW_ROWS:
         rows = sorted({int(np.abs(time - share * time[-1]).argmin()) for share in _SHARES})
+    left_out = {name for law in _off(dataset) for name in _OFF[law]}
     columns = [["time", "min", *_apart(time[rows] / 60.0)]]
     columns += [
         [heading, unit, *_stated(dataset, name, rows, factor, digits)]
         for heading, unit, name, factor, digits in (*COLUMNS, *_below(dataset))
+        if name not in left_out
     ]
     padded = [[cell.rjust(max(map(len, column))) for cell in column] for column in columns]
     parts = [padded[:1]]
@@ -91,6 +95,12 @@ def table(dataset: xr.Dataset, width: float = math.inf) -> str:
             parts.append(padded[:1])
         parts[-1] = [*parts[-1], column]
     return "\n\n".join("\n".join("  ".join(line) for line in zip(*part, strict=True)) for part in parts)
+
+
+def _off(dataset: xr.Dataset) -> list[str]:
+    """Return the laws with columns in the table that are off in the scene of a run; none if it has no scene."""
+    scene = json.loads(dataset.attrs.get("scene_json", "{}"))
+    return [law for law in _OFF if scene.get(law, {}).get("model") == "none"]
 
 
 def _below(dataset: xr.Dataset) -> list[tuple[str, str, str, float, int]]:
@@ -118,11 +128,13 @@ def _apart(minutes: np.ndarray) -> list[str]:
 
 
 def closing_lines(dataset: xr.Dataset) -> list[str]:
-    """Return sentences on load cycles, the pressures that drove the blocks, and warm bodies."""
+    """Return sentences on load cycles, the pressures that drove the blocks, laws that are off, and warm bodies."""
     last = dataset.isel(time=-1)
     first, second = (f"{int(last[f'load_cycles_{body}']):,}".replace(",", " ") for body in (1, 2))
     cycles = f"Load cycles: {first} of body 1, {second} of body 2."
-    return [cycles, *_blocks(last), *_warmth(dataset)]
+    off = _off(dataset)
+    blocks = _blocks(last) if len(off) < len(_OFF) else []
+    return [cycles, *blocks, *([f"Off, and not computed: {', '.join(off)}."] if off else []), *_warmth(dataset)]
 
 
 def _warmth(dataset: xr.Dataset) -> list[str]:

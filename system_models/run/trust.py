@@ -16,14 +16,14 @@ from contact_core.scene import Case, OperatingPoint, Scene
 from contact_core.scene.hertz_grid import POINTS
 from contact_core.state import Error
 
-from . import flags, verdict
+from . import assumed, flags, verdict
 from .duty import Duty
 
 _MOST_POINTS = 200  # of a duty that are looked at
 _MIXED, _FULL = 1.0, 3.0  # lambda of handbooks, from which on lubrication is called mixed, and full film
 _FEW = 8.0  # nodes across the contact, below which RangeFlag.FEW_NODES is raised
 _WIDE, _WAVES = 5.0, 8.0  # half widths of the contact and correlation lengths, that a domain should have
-_MISSING, _LEFT = 0.05, 0.02  # of the film: missing from which on a line says so, and left by its way out
+_MISSING, _LEFT = 0.06, 0.02  # of the film: missing from which on a line says so, and left by its way out
 _ROUND = 0.01  # relative difference of half widths, up to which one is told
 _SHORT, _LONG = 60, 120  # columns of text
 
@@ -162,7 +162,8 @@ def after(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> lis
 
     `errors` are those of the last state by `contact_core.uncertainty`; empty if that is not known.
     """
-    return wrapped(*flags.sentences(scene, dataset), verdict.sentence(scene, dataset, errors))
+    known = verdict.sentence(scene, dataset, errors)
+    return wrapped(*flags.sentences(scene, dataset), known, *assumed.not_in_errors(dataset.attrs))
 
 
 def width() -> int:

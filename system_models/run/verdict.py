@@ -10,7 +10,7 @@ from contact_core.quantities import UNSOLVED
 from contact_core.scene import Scene
 from contact_core.state import Error
 
-from ..store.results import half_width
+from ..store.results import BAND, half_width
 from .half_widths import SHARES, says_nothing
 
 NAMES = {  # of an output with a stated error: in words
@@ -75,6 +75,8 @@ def sentence(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> 
     parts = [f"{', '.join(words)}{cause and f' ({cause})'}" for cause, words in found.items()]
     cut = any(_CAUSES["inlet"] in cause for cause in found)
     way = "Surer: the domain that the line Inlet names." if cut else way_out([scene])
+    if any(str(name).endswith(BAND) for name in dataset.coords):
+        way = f"Surer: more surfaces; where '+- stated' is most of it: {way.removeprefix('Surer: ')}"
     return f"Verdict: known at the end: {'; '.join(parts)}. {way}".rstrip()
 
 

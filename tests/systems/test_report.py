@@ -1,3 +1,4 @@
+import json
 import math
 from pathlib import Path
 
@@ -171,3 +172,11 @@ def test_bodies_that_are_warmer_than_the_oil_are_told(long_run: xr.Dataset) -> N
     at = float(long_run["temperature"][-1]) + 10.0 - 273.15
     (line,) = [line for line in report.closing_lines(warmer) if "take up the heat" in line]
     assert f"body 1 at {at:.1f} degC with 1.25 W, body 2 at {at - 10.0:.1f} degC with 0.5 W" in line
+
+
+def test_what_is_off_has_no_columns(long_run: xr.Dataset) -> None:
+    on, off = {"model": "archard"}, {"model": "none"}
+    found = long_run.assign_attrs(scene_json=json.dumps({"tribofilm": off, "wear": on}))
+    assert "tribofilm 1" in report.table(long_run) and "tribofilm" not in report.table(found)
+    assert "wear 1" in report.table(found)
+    assert "Off, and not computed: tribofilm." in report.closing_lines(found)

@@ -6,7 +6,8 @@ import xarray as xr
 
 from contact_core import Error, RangeFlag, Scene
 from contact_core.quantities import STATED, TABLE
-from system_models.run import flags, report, trust
+from contact_core.scene import Assumed
+from system_models.run import assumed, flags, report, trust
 from system_models.run.duty import Duty
 from system_models.store.results import to_dataset
 
@@ -122,7 +123,7 @@ def test_an_error_above_the_value_is_a_factor() -> None:
 
 
 def test_a_share_of_solids_is_not_told_to_digits_that_mean_nothing() -> None:
-    told = " ".join(trust.after(MTM, run_of(error_load_ratio=1.4e-91), {}))
+    told = " ".join(" ".join(trust.after(MTM, run_of(error_load_ratio=1.4e-91), {})).split())
     assert "W_c to less than +- 0.001" in told
 
 
@@ -142,6 +143,14 @@ def test_a_longer_domain_is_the_way_out_where_the_inlet_is_cut_off() -> None:
     told = " ".join(" ".join(trust.after(MTM, found, {"h_c": Error(inlet=half)})).split())
     assert "film only to 40 % (a domain that cuts the inlet off)" in told
     assert told.endswith("Surer: the domain that the line Inlet names.")
+
+
+def test_what_is_assumed_or_off_is_said_to_be_in_no_error() -> None:
+    values = [Assumed("lubricant.rheology", "eyring", ""), Assumed("heat", "none", "", "off")]
+    values += [Assumed("film.points", "129", "", "numerical")]
+    told = " ".join(trust.after(MTM, run_of().assign_attrs(assumed.attribute(values)), {}))
+    assert "Not in these errors: what is assumed (rheology) and what is off (heat)." in " ".join(told.split())
+    assert "Not in these errors" not in " ".join(trust.after(MTM, run_of().assign_attrs(assumed.attribute([])), {}))
 
 
 def test_bodies_without_roughness_below_the_grid_are_told_in_words() -> None:
