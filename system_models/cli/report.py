@@ -25,6 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..html_report.opened import open_run
     from ..html_report.page import page
 
+    note(f"Reading '{arguments.folder}'; that of a machine may take half a minute.")
     written(arguments.out or arguments.folder / "report.html", page(open_run(arguments.folder)))
     return 0
 

@@ -74,7 +74,7 @@ def test_a_run_prints_a_table_and_writes_three_files(
     out, err = capsys.readouterr()
     assert out.startswith("Azam's case B")
     assert {"friction", "h_c", "lambda", "A_c", "W_c"} < set(" ".join(out.split("\n\n")[1:3]).split())
-    assert "Pressures that drive tribofilm and wear: dry contact" in out
+    assert "Off, and not computed: tribofilm, wear." in out
     assert "\nBody 1: microroughness 4 nm rms, waves below 4 um (assumed: lapped steel).\nBody 2: microro" in out
     assert "0.6/0.6 min" in err
     folder = tmp_path / "results" / "mtm_zddp"
