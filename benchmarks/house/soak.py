@@ -145,7 +145,7 @@ def tried(job: str, fault: str, alone: float, expected: str, draw: random.Random
         folder, log = Path(name) / "out", Path(name) / "log"
         words = (*JOBS[job], "--out", str(folder))
         again = words if job == "sweep" else (*words, "--resume")
-        size = draw.choice((1_000, 20_000, 100_000))
+        size = draw.choice((10_000, 30_000, 100_000))  # above what is printed: the log is a file, too
         process = started(words, log, limited(size) if fault == "full disk" else None)
         code, memory = strike(trial, process, alone * draw.uniform(0.3, 0.95))
         trial.hit |= fault == "full disk" and code not in (0, 1)
