@@ -194,13 +194,6 @@ def encoded(values: Array) -> tuple[float, float, str]:
     return low, high, base64.b64encode(zlib.compress(codes.tobytes(), 9)).decode()
 
 
-def decoded(low: float, high: float, codes: str, shape: tuple[int, ...]) -> Array:
-    """Return the values of `encoded`, as the script has them."""
-    found = np.frombuffer(zlib.decompress(base64.b64decode(codes)), "<u2").reshape(shape)
-    values = low + (high - low) * found / _CODES
-    return np.where(found > _CODES, np.nan, values)
-
-
 def _top(shown: Array, key: str) -> float:
     """Return the value at which the colours end: single peaks, and the gap far from the contact, may be beyond it."""
     finite = shown[np.isfinite(shown)]

@@ -76,7 +76,8 @@ def sentence(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> 
     cut = any(_CAUSES["inlet"] in cause for cause in found)
     way = "Surer: the domain that the line Inlet names." if cut else way_out([scene])
     if any(str(name).endswith(BAND) for name in dataset.coords):
-        way = f"Surer: more surfaces; where '+- stated' is most of it: {way.removeprefix('Surer: ')}"
+        rest = way.removeprefix("Surer: ")
+        way = "Surer: more surfaces" + (f"; where '+- stated' is most of it: {rest}" if rest else ".")
     return f"Verdict: known at the end: {'; '.join(parts)}. {way}".rstrip()
 
 

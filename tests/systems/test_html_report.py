@@ -1,9 +1,11 @@
 """Pages of results: they need nothing else, have the numbers of the result, and a browser shows them."""
 
+import base64
 import json
 import math
 import shutil
 import subprocess
+import zlib
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -19,7 +21,7 @@ from system_models.cli.main import main
 from system_models.explain import left_out
 from system_models.html_report import compare, errors, trust
 from system_models.html_report.chart import ticks
-from system_models.html_report.maps import decoded, encoded
+from system_models.html_report.maps import encoded
 from system_models.html_report.opened import Run, open_run
 from system_models.html_report.page import page
 from system_models.html_report.shown import stated, unit_for
@@ -31,6 +33,14 @@ from system_models.store.checkpoint import Checkpoint
 RUN = ["run", "mtm_zddp", "--set", *COARSE, "--hours", "0.025", "--fields", "3"]
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 LARGEST = 3e6  # bytes
+CODES = 65534  # largest code of a value; the next one is no value
+
+
+def decoded(low: float, high: float, codes: str, shape: tuple[int, ...]) -> np.ndarray:
+    """Return the values of `encoded`, as the script has them."""
+    found = np.frombuffer(zlib.decompress(base64.b64decode(codes)), "<u2").reshape(shape)
+    values = low + (high - low) * found / CODES
+    return np.where(found > CODES, np.nan, values)
 
 
 @pytest.fixture(scope="module")
