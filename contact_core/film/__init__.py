@@ -6,6 +6,8 @@
     mapped          the record of the level of a map in a scene
     instant         grid, instant and solution, in SI
     scaled          an instant in the dimensionless units of the kernels
+    starts          starts of the iterations
+    solutions       what was found, in SI, and the load that it carries
     lengths         size of the loaded zone and of the inlet
     shared          half spaces and tables of oils that many instants share
     solids          solids that carry a load in dry contact

@@ -28,7 +28,9 @@ from ..kernels.multigrid.cycle import is_applicable, solve_smooth
 from ..progress import ALGORITHM, tell
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .lengths import inlet_length
-from .scaled import LOAD_ACCEPTED, Scaled
+from .scaled import Scaled
+from .solutions import LOAD_ACCEPTED, dry, load_balance, solution
+from .starts import dry_start, lifted_start, shared_start
 
 Array = NDArray[np.float64]
 
@@ -221,7 +223,7 @@ def solve_film(
         back = start and start.mirrored(), step and step.mirrored()
         return solve_film(now.mirrored(), grid.mirrored(), settings, *back).mirrored()
     if now.dry or (now.entrainment_speed == 0.0 and not (start and step)):
-        return Scaled(now, grid, settings).dry("dry", now.solid_share)
+        return dry(Scaled(now, grid, settings), "dry", now.solid_share)
     step = step if start else None
     at_rest = now.entrainment_speed == 0.0
     closing, pull = float(at_rest), now.entrainment_speed * grid.spacing  # at rest its size does not matter
@@ -232,7 +234,7 @@ def solve_film(
         if start and step and step.thorough and scaled.is_light and not at_rest:
             closing = (start.rigid_gap - found.state.rigid_gap) / step.dt
             settled = abs(closing - last) * now.shape.radius_x < 0.1 * pull
-        balance = scaled.balance(found)
+        balance = load_balance(scaled, found)
         if not balance.holds and balance.apart is not None and found.route == "mixed":
             apart, settled = balance.apart, False  # roughness holds the bodies apart, or they are flattened
         if settled:
@@ -291,7 +293,7 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
             break
     best = solver.best
     if best is not None and 1.0 - float(best.iterate.pressure.sum()) / scaled.load < _MOST_BEYOND:
-        return scaled.solution(replace(best, iterations=spent), "mixed", used)
+        return solution(scaled, replace(best, iterations=spent), "mixed", used)
     if scaled.film > _FULL_FILM * scaled.roughness:  # the dry contact is no substitute
         width, depth = (n * grid.spacing for n in reversed(grid.shape))
         raise (FilmTooWideError if scaled.is_light else ConvergenceError)(
@@ -299,7 +301,7 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
             f"{depth:.3g} m. Lower speed or viscosity, or enlarge the domain (film.domain) for a film that thick."
         )
     why = "no mixed solution was found; the dry contact replaces it"
-    return replace(scaled.dry("fallback"), converged=False, shortfall=why, iterations=spent)
+    return replace(dry(scaled, "fallback"), converged=False, shortfall=why, iterations=spent)
 
 
 def _with_march(algorithms: tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
@@ -370,7 +372,7 @@ class _Solver:
         if method == "alternating":
             if self.problem.by_flux or self.problem.depth > 0.0:
                 return None
-            start = scaled.dry_start() if start is None else start
+            start = dry_start(scaled) if start is None else start
         if start is None:
             return None
         solve, most = {
@@ -392,7 +394,7 @@ class _Solver:
                 now, grid = coarser(scaled.now, scaled.grid)
                 with suppress(ConvergenceError):
                     state = prolonged(solve_film(now, grid, self.quick).state, scaled.grid.shape)
-            return scaled.dry_start() if state is None else scaled.iterate(state)
+            return dry_start(scaled) if state is None else scaled.iterate(state)
         if name == "flooded" and self.problem.supply is None and self.problem.first == 0:
             now = replace(scaled.now, conserving=False, meniscus=None)
             return scaled.iterate(solve_film(now, scaled.grid, self.quick, state, self.step).state)
@@ -400,8 +402,8 @@ class _Solver:
             return self._above_smooth()
         if name == "last" and self.best is not None:
             return self.best.iterate
-        starts = {"dry": scaled.dry_start, "shared": scaled.shared_start, "film": scaled.lifted_start}
-        return starts[name]() if name in starts else None
+        starts = {"dry": dry_start, "shared": shared_start, "film": lifted_start}
+        return starts[name](scaled) if name in starts else None
 
     def _above_smooth(self) -> Iterate | None:
         """Return the film of smooth bodies, which is one row, in every row of rough ones."""

@@ -1,7 +1,7 @@
 """An instant of the film in the dimensionless units that the kernels work in."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -9,47 +9,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
-from ..kernels.dry import solve_dry
 from ..kernels.far_field import far_field
 from ..kernels.giving_half_space import giving
 from ..kernels.half_space import HalfSpace
 from ..kernels.mixed.problem import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
 from ..reference.starvation import film_behind_meniscus, supplied_film
-from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
-from .lengths import FAR_FIELD_BELOW, film_size, inlet_length, resolves_inlet
-from .outputs import disc
+from .instant import FilmState, Grid, Instant, Settings, Step
+from .lengths import FAR_FIELD_BELOW, film_size, inlet_length
 from .shared import ENTRIES, half_space, tables
-from .solids import pressed
 
 Array = NDArray[np.float64]
 
 _TABLE_TOP = 2e10  # Pa: no oil flows above
-_DRY_TOLERANCE = 1e-6
-_DRY_ITERATIONS = 1000
-_START_TOLERANCE = 1e-2
-_SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95, from light contact to nearly dry
 _LEAST_EASE = 1e-6  # below it, oil does not flow
 _SLOWEST = 0.25  # unit of speeds, in nodes per time step: below it, squeezing dominates
-LOAD_ACCEPTED = 1e-3  # relative error of the load, up to which a film is accepted
-_BEYOND_KNOWN = 0.05  # relative error of the formula for the load beyond the grid
-_MEMORY = 2.0  # half widths of the contact that the oil passes while the running mean of a film follows
 _WHOLE = 1.0 + 1e-9  # nodes per time step, up to which a film is carried over
 _FASTEST_CHANGE = 2.0  # of a film in a step, up to which it is of second order
-
-
-@dataclass(frozen=True)
-class LoadBalance:
-    """Load that a solution carries, compared with the load it should carry."""
-
-    error: float  # relative
-    beyond: float  # share of the load beyond the grid
-    apart: float | None  # film [m] of rigid bodies with the gap beyond the grid's edge; None: no load there
-
-    @property
-    def holds(self) -> bool:
-        """True if the solution carries its load within the known accuracy."""
-        return abs(self.error) <= LOAD_ACCEPTED + _BEYOND_KNOWN * abs(self.beyond)
 
 
 class Scaled:
@@ -199,7 +175,7 @@ class Scaled:
         return own * per_dt, np.clip(old, mass / _FASTEST_CHANGE, mass * _FASTEST_CHANGE)
 
     @cached_property
-    def _slow_mass(self) -> Array | None:
+    def slow_mass(self) -> Array | None:
         """Running mean of the mass [m] before this step; None where no film is carried over as it is.
 
         A march begins with the film of smooth bodies under Hertz's pressure.
@@ -226,7 +202,7 @@ class Scaled:
         top = min(now.hardness, _TABLE_TOP)
         fluidity, density, viscosity = tables(now.viscosity, now.density, now.temperature, top)
         mobility = self.size**3 * self.p_unit / (12.0 * viscosity * self.speed * now.shape.radius_x**2)
-        edge, weight = self._beyond
+        edge, weight = self.beyond
         ease, thinned = self._oil(viscosity)
         images = self._with_images
         weight = images(weight)
@@ -255,7 +231,7 @@ class Scaled:
             first=self._first,
             wrapped=self.grid.periodic,
             fitted=self.settings.fitted,
-            slow_mass=None if self._slow_mass is None else images(self._slow_mass / self.h_unit),
+            slow_mass=None if self.slow_mass is None else images(self.slow_mass / self.h_unit),
             stress=self.stress,
             depth=self.fade,
         )
@@ -286,10 +262,11 @@ class Scaled:
         return min(int(np.abs(self.grid.x + meniscus).argmin()) + 1, self.grid.x.size - 1)
 
     @cached_property
-    def _beyond(self) -> tuple[Array, Array]:
-        return self._far_field(self.film if self.apart is None else self.apart)
+    def beyond(self) -> tuple[Array, Array]:
+        """`far_field` of the film, or of bodies `apart`."""
+        return self.far_field(self.film if self.apart is None else self.apart)
 
-    def _far_field(self, film: float) -> tuple[Array, Array]:
+    def far_field(self, film: float) -> tuple[Array, Array]:
         """Return `far_field` for bodies with that film [m]; zeros and ones if the field does not matter."""
         starved = self._first > 0 or self.now.supply is not None
         if self.is_light and self.now.shape.has_far_field and not starved:
@@ -298,26 +275,6 @@ class Scaled:
             wedge = self.now.entrainment_speed / self.speed
             return far_field(self.x, self.y, film / self.h_unit, self.curvature, wedge, closing)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
-
-    def balance(self, found: FilmSolution) -> LoadBalance:
-        """Return the load of a solution, summed anew.
-
-        The pressure beyond the grid follows from the gap of the solution itself.
-        """
-        pressure, per_load = found.state.pressure, self.grid.cell / self.now.load
-        beyond = (self._beyond[1] - 1.0) * pressure
-        if not beyond.any():
-            return LoadBalance(float(pressure.sum()) * per_load - 1.0, 0.0, None)
-        shape = self.now.shape.gap(self.x, self.y, self.size) * self.h_unit
-        least = min(float(shape[[0, -1]].min()), float(shape[:, [0, -1]].min()))
-        opened = float((beyond * (found.gap + self.now.heights - shape)).sum() / beyond.sum())
-        apart = max(opened, -0.5 * least)
-        both = self._far_field(apart)[1] * pressure
-        return LoadBalance(
-            error=float(both.sum()) * per_load - 1.0,
-            beyond=float((both - pressure).sum()) * per_load,
-            apart=apart,
-        )
 
     def iterate(self, state: FilmState) -> Iterate:
         """Return a film state in these units, scaled to carry the load.
@@ -330,118 +287,3 @@ class Scaled:
         pressure = np.minimum(begun * scale, self.cap)
         fluid = np.minimum(state.fluid * scale, pressure) if begun is state.pressure else pressure.copy()
         return Iterate(pressure, fluid, state.solid.copy(), state.rigid_gap / self.h_unit)
-
-    def dry_start(self) -> Iterate:
-        """Return the dry contact, without fluid."""
-        return self._shared(1.0, _DRY_TOLERANCE)[0]
-
-    def lifted_start(self) -> Iterate:
-        """Return a Hertz-like pressure under the film of smooth bodies and the highest asperities.
-
-        The ends of a roller carry their part of the load. Another share would change the gap in the middle by many
-        films, so the pressure of the dry, smooth roller is used.
-        """
-        pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
-        lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
-        if self.now.shape.ends:
-            smooth = self.undeformed + self.now.heights / self.h_unit
-            limits = self.load, self.smooth, _START_TOLERANCE, _DRY_ITERATIONS
-            pressure, rigid, _, _ = solve_dry(self.half_space, smooth, self.cap, *limits)
-            return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid + lift / self.h_unit)
-        settled = self.compliance if self.now.shape.circular else float(self.half_space.deform(pressure).max())
-        rigid = lift / self.h_unit - settled  # less the deformation of the centre by that pressure
-        return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
-
-    def shared_start(self) -> Iterate:
-        """Return solids that carry most of the load, above oil that carries the rest.
-
-        Filled valleys drain faster than dry ones fill: from a dry contact, the oil has to open every seal. The solids'
-        share of the solution is far lower.
-        """
-        return self._shared(_SOLID_SHARE, _START_TOLERANCE)[0]
-
-    def _shared(self, share: float, tolerance: float) -> tuple[Iterate, bool, int]:
-        """Return solids that carry `share` of the load in dry contact, above oil; convergence, iterations.
-
-        The oil carries the rest with the pressure of smooth bodies.
-        """
-        fluid, gap = np.zeros_like(self.cap), self.undeformed
-        if share < 1.0:
-            fluid = np.minimum(self.smooth * ((1.0 - share) * self.load / self.smooth.sum()), 0.5 * self.cap)
-            gap = gap + self.half_space.deform(fluid)
-        left = self.load - float(fluid.sum())
-        contact, limits = (self.half_space, gap, self.cap, left, self.smooth), (tolerance, _DRY_ITERATIONS)
-        solid, rigid, converged, iterations = pressed(*contact, fluid, (self.stress, self.fade), self.give, *limits)
-        return Iterate(solid + fluid, fluid, solid > 0.0, rigid + self.floor), converged, iterations
-
-    def dry(self, route: str, share: float = 1.0) -> FilmSolution:
-        """Return the contact without a film: its gap is the floor where solids touch.
-
-        Solids carry `share` of the load, oil under a pressure like Hertz's the rest.
-        """
-        tolerance = 0.1 * self.settings.tolerance  # conjugate gradients are cheap, and no later step corrects them
-        iterate, converged, iterations = self._shared(share, tolerance)
-        gap = iterate.rigid + self.undeformed + self.half_space.deform(iterate.pressure)
-        if self.give is not None:
-            gap += self.give.at(iterate.pressure)
-        load_error = float(iterate.pressure.sum()) / self.load - 1.0
-        mass = np.maximum(gap, self.floor)
-        if self.now.supply is not None:
-            mass = np.minimum(mass, self.now.supply / self.h_unit)
-        why = "" if converged else f"dry contact not converged to {tolerance:g} after {iterations} iterations"
-        found = Solution(
-            iterate,
-            gap,
-            mass,
-            converged=converged,
-            shortfall=why,
-            iterations=iterations,
-            pressure_change=tolerance,
-            load_error=load_error,
-            complementarity=0.0,
-            imbalance=0.0,
-        )
-        return self.solution(found, route, "conjugate gradients")
-
-    def solution(self, found: Solution, route: str, algorithm: str) -> FilmSolution:
-        """Return a solution in SI."""
-        it = found.iterate
-        state = FilmState(
-            it.pressure * self.p_unit,
-            it.fluid * self.p_unit,
-            it.solid,
-            found.mass * self.h_unit,
-            it.rigid * self.h_unit,
-            np.ones((1, 1)) if self.now.ease is None else self.now.ease,
-            np.zeros((1, 1)) if self.now.thinned is None else self.now.thinned,
-        )
-        if self._slow_mass is not None and self.step is not None:
-            part = min(1.0, self.step.dt * self.now.entrainment_speed / (_MEMORY * self.a))
-            state = replace(state, slow_mass=self._slow_mass + part * (state.mass - self._slow_mass))
-        if self.start and self.step and self.step.order == 2:
-            state = replace(state, mass_before=self.start.mass, dt=self.step.dt)
-        capped = it.solid & (it.pressure >= self.cap)
-        overlap = np.where(capped, np.maximum(self.floor - found.gap, 0.0), 0.0) * self.h_unit
-        if self.give is not None:
-            overlap += self.give.yielded(it.pressure) * self.h_unit
-        gap = np.maximum(found.gap, self.floor) * self.h_unit
-        inlet_nodes = self._inlet_nodes(gap)
-        return FilmSolution(
-            state=state,
-            gap=gap,
-            overlap=overlap,
-            touching=self.now.touching(state.pressure - state.fluid),
-            route=route,
-            algorithm=algorithm,
-            load_beyond=1.0 + found.load_error - float(it.pressure.sum()) / self.load,
-            inlet_nodes=inlet_nodes,
-            resolved=route != "mixed" or resolves_inlet(inlet_nodes, fitted=self.settings.fitted),
-            **found.convergence,
-        )
-
-    def _inlet_nodes(self, gap: Array) -> float:
-        """Return the nodes across the zone before the contact in which the film builds up."""
-        film = float(gap[disc(self.grid, self.hertz)].mean())
-        if self.now.entrainment_speed > 0.0:  # roughness holds the gap open, but the inlet is that of the oil's film
-            film = min(film, self.smooth_film)
-        return inlet_length(self.a, self.now.shape, film) / self.grid.spacing

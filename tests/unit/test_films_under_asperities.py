@@ -14,6 +14,7 @@ from benchmarks.film.cases import RoughCase, grid_of, instant_of_call
 from contact_core.film.instant import Settings
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
+from contact_core.film.starts import shared_start
 from contact_core.kernels.half_space import PeriodicHalfSpace
 from contact_core.kernels.mixed.direct import solve_direct
 from contact_core.kernels.mixed.fixed_point import solve_mixed
@@ -177,7 +178,7 @@ def test_a_steady_film_that_stays_short_of_its_balance_closes_at_the_end_of_a_ma
     now, grid = rough(0.05, 10e-9)
     settings = Settings(1e-9, 3e-3, 2000, "scipy", fitted=True)
     scaled = Scaled(now, grid, settings)
-    case, begin = scaled.problem(), scaled.shared_start()
+    case, begin = scaled.problem(), shared_start(scaled)
     alone = solve_mixed(scaled.half_space, case, begin, settings.tolerance, 300)
     assert "mass imbalance" in alone.shortfall
     closed = solve_marched(scaled.half_space, case, begin, settings.tolerance, 2000)
