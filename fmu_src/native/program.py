@@ -319,10 +319,10 @@ def translated(function: Any, operands: list[Any], instead: Mapping[Any, Any] | 
         translator = Translator(reads, instead)
         entry = translator.program(function, operands)
         texts = translator.texts([entry])
-        for key, member in translator.missed(texts):
+        for key, member in translator.members.missed(texts):
             needed.setdefault(key, set()).add(member)
         found = dict(reads)
-        for key, members in translator.wanted(texts, [entry]).items():
+        for key, members in translator.members.wanted(texts, [entry.name]).items():
             found[key] = members & reads.get(key, members) | needed.get(key, set())
         if found == reads:
             return entry, texts

@@ -106,7 +106,7 @@ class ControlledStepper(Stepper):
         whole = coupled.advance(end, start)
         outputs, before = coupled.outputs[coupled.wiring.coupled], coupled.ends()
         if not self.statistics.steps:
-            coupled.expect()
+            coupled.magnitudes.expect(coupled.outputs)
         coupled.restore(start)
         first = coupled.advance(middle_time, start)
         row, indicators, event = self.recorder.row(0.5 * size, first), self._indicators.values(), coupled.event()
@@ -141,13 +141,17 @@ class ControlledStepper(Stepper):
         """Return the share of the tolerance for a step: in proportion to it, but no less than the level of noise."""
         return min(1.0, max(_LEAST_SHARE, size / self.horizon))
 
+    def _scales(self) -> NDArray[np.float64]:
+        """Return magnitudes of the outputs that set inputs."""
+        return self.coupled.magnitudes.scales(self.coupled.outputs)[self.coupled.wiring.coupled]
+
     def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
         share = np.where(self.lags < _EVIDENCE, self._share(size), 1.0)
-        return wrms(errors, self.tolerance * share * self.coupled.scales())
+        return wrms(errors, self.tolerance * share * self._scales())
 
     def _with_new_evidence(self, earlier: Attempt, attempt: Attempt) -> Attempt:
         """Look which errors add up, now that a step is repeated with another size."""
-        allowed = self.tolerance * self._share(attempt.size) * self.coupled.scales()
+        allowed = self.tolerance * self._share(attempt.size) * self._scales()
         matters = (attempt.errors > _MATTERS * allowed) & (attempt.gains > 0.0)
         settings = self.coupled.settings
         does_not = self._order_is_reduced if settings.iterate else self._follows_at_once

@@ -11,15 +11,17 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 from numpy.typing import NDArray
 
-from ..fmu.errors import CouplingError, NotFiniteError
+from ..fmu.errors import NotFiniteError
 from ..fmu.instance import Instance
 from ..fmu.start import started
 from ..numerics import hold
 from ..numerics.control import wrms
 from ..numerics.hold import History, Past
 from ..numerics.iteration import METHODS, Method
-from .initial import initialise
+from .initial import initialise, with_feedthrough
 from .linear import Correction
+from .magnitudes import Magnitudes, positive
+from .passed_on import PassedOn
 from .sequence import Block, blocks, feedthrough_order
 from .settings import Settings
 from .system import Port, System
@@ -31,7 +33,6 @@ log = logging.getLogger(__name__)
 
 _SAME_TIME = 1e-12  # relative to the step: a step that ends this close to its end has got there
 _MOST_ITERATIONS = 50
-_MOST_PASSES = 20  # until discrete values at a communication point come to rest
 
 
 class Outcome(NamedTuple):
@@ -76,9 +77,7 @@ class Coupled:
         self.instances = started(system.models, inputs, outputs, early_return=self.restores, exits=exits)
         self.wiring = Wiring(system, self.instances)
         self.outputs = np.zeros(len(self.wiring.outputs))
-        # of the outputs: their nominal or largest value; and the expected value of those that have neither
-        self.magnitudes = np.array([system.port(name).nominal or 0.0 for name in self.wiring.outputs])
-        self.expected = np.zeros(len(self.outputs))
+        self.magnitudes = Magnitudes([system.port(name).nominal or 0.0 for name in self.wiring.outputs])
         self.history = History(settings.order)
         self.iteration_tolerance = settings.converged
         self.time = 0.0
@@ -86,8 +85,7 @@ class Coupled:
         self._methods: list[Method] = [METHODS[settings.iterate]() for _ in self._blocks] if settings.iterate else []
         self._feedthrough = feedthrough_order(system, self.instances)
         self._correction = Correction(system, self.wiring)
-        self._passed_on = [c for c in system.connections if c.target.name not in self.wiring.input_place]
-        self._passed: list[Any] = [None] * len(self._passed_on)
+        self._passed = PassedOn([c for c in system.connections if c.target.name not in self.wiring.input_place])
         self._held: Array | None = None  # inputs at the end of the last step, as the FMUs received them
 
     def initialise(self) -> None:
@@ -102,33 +100,8 @@ class Coupled:
         for instance in self.instances.values():
             with self._named(instance, "to be initialised"):
                 instance.exit_initialization()
-        self._try_feedthrough()
+        self._feedthrough = with_feedthrough(self.instances, self._feedthrough)
         self.restart()
-
-    def _try_feedthrough(self) -> None:
-        """Find out which FMUs give outputs for inputs that are newly set, without a step between: FMI 2 leaves it open.
-
-        Those that refuse are left alone: their outputs follow their inputs a step later.
-        """
-        for name in list(self._feedthrough):
-            instance = self.instances[name]
-            state = instance.save() if instance.model.restores else None
-            try:
-                instance.read()
-                variables = [instance.model.variables[own] for own in instance.inputs.names]
-                instance.inputs.values[:] = [instance.get(variable) for variable in variables]
-                instance.set_inputs()
-                instance.read()
-            except FMICallException as error:
-                if state is None:
-                    raise instance.failure("to give outputs after its inputs were set", error) from error
-                log.info("The FMU '%s' refuses outputs before a step; they lag behind its inputs.", name)
-                instance.restore(state)
-                instance.feedthrough = False
-                self._feedthrough.remove(name)
-            finally:
-                if state is not None:
-                    instance.release(state)
 
     def set(self, name: str, value: Any) -> None:
         """Set one variable from outside."""
@@ -158,7 +131,7 @@ class Coupled:
     def restart(self) -> None:
         """Begin anew at this time: read all outputs, and forget the past."""
         for instance in self.instances.values():
-            self._read(instance)
+            self.read(instance)
         self.history.clear()
         for method in self._methods:
             method.clear()
@@ -222,8 +195,8 @@ class Coupled:
         if not len(unknown):  # no loop
             self._pass(block, size, self.history.interpolate(size, ends), ends)
             return Outcome(1, 0.0)
-        guess, floor = ends[unknown], np.abs(self.wiring.factor * self.magnitudes[self.wiring.source])[unknown]
-        method.start(self.iteration_tolerance * _positive(np.maximum(floor, abs(guess))))
+        guess, floor = ends[unknown], np.abs(self.wiring.factor * self.magnitudes.known[self.wiring.source])[unknown]
+        method.start(self.iteration_tolerance * positive(np.maximum(floor, abs(guess))))
         iteration, residual, result = 0, math.inf, guess
         with np.errstate(over="ignore", invalid="ignore"):  # where it diverges
             while residual > 1.0 and iteration < _MOST_ITERATIONS:
@@ -237,7 +210,7 @@ class Coupled:
                 ends[unknown] = guess
                 self._pass(block, size, self.history.interpolate(size, ends), ends)
                 result = self.wiring.inputs_from(self.outputs, unknown)
-                scale = self.iteration_tolerance * _positive(np.maximum(floor, np.maximum(abs(result), abs(guess))))
+                scale = self.iteration_tolerance * positive(np.maximum(floor, np.maximum(abs(result), abs(guess))))
                 residual = wrms(result - guess, scale)
                 residual = math.inf if math.isnan(residual) else residual
         if math.isfinite(residual):
@@ -278,8 +251,7 @@ class Coupled:
 
     def _exchange(self, explicit: bool) -> None:
         """Exchange the values of the FMUs; outputs that depend directly on inputs follow these at once."""
-        if self._passed_on:
-            self._pass_on()
+        self._passed.settle(self)
         if explicit:
             self._refresh()
         if not np.isfinite(self.outputs).all():
@@ -289,25 +261,6 @@ class Coupled:
                 "Take smaller steps, iterate, or look into its FMU."
             )
         self.history.push(self.time, self.wiring.inputs_from(self.outputs))
-
-    def _pass_on(self) -> None:
-        """Set the inputs that hold their values over a step, until nothing changes any more."""
-        for _ in range(_MOST_PASSES):
-            changed = set()
-            for n, connection in enumerate(self._passed_on):
-                value = self.get(connection.source)
-                if value != self._passed[n]:
-                    self.set(connection.target.name, connection.result(value))
-                    self._passed[n] = value
-                    changed.add(connection.target.model.name)
-            for name in changed:
-                self._read(self.instances[name])
-            if not changed:
-                return
-        raise CouplingError(
-            f"Discrete values change again and again at {self.time:g} s: "
-            f"{', '.join(sorted(connection.source.name for connection in self._passed_on))}. Break their loop."
-        )
 
     def _refresh(self) -> None:
         if self._correction.owners and self._held is not None:
@@ -322,7 +275,8 @@ class Coupled:
                 raise instance.failure(f"at {self.time:g} s", error) from error
             self.outputs[self.wiring.output_of[name]] = instance.outputs.values
 
-    def _read(self, instance: Instance) -> None:
+    def read(self, instance: Instance) -> None:
+        """Read the outputs of an FMU."""
         with self._named(instance, f"at {self.time:g} s"):
             instance.read()
         self.outputs[self.wiring.output_of[instance.name]] = instance.outputs.values
@@ -331,7 +285,7 @@ class Coupled:
         """Return the present point. The FMUs can go back to it only if all of them can; `release` frees it."""
         states = {name: instance.save() for name, instance in self.instances.items()} if self.restores else {}
         memories = [method.copy() for method in self._methods]
-        return Point(self.time, self.outputs.copy(), self.history.copy(), list(self._passed), memories, states)
+        return Point(self.time, self.outputs.copy(), self.history.copy(), list(self._passed.values), memories, states)
 
     def restore(self, point: Point) -> None:
         """Go back to a point."""
@@ -340,7 +294,7 @@ class Coupled:
         self.time = point.time
         self.outputs[:] = point.outputs
         self.history.restore(point.history)
-        self._passed[:] = point.passed
+        self._passed.values[:] = point.passed
         for method, memory in zip(self._methods, point.memories, strict=True):
             method.restore(memory)
 
@@ -367,10 +321,10 @@ class Coupled:
             "time": self.time,
             "outputs": self.outputs.copy(),
             "history": self.history.copy(),
-            "passed": list(self._passed),
+            "passed": list(self._passed.values),
             "memories": [method.copy() for method in self._methods],
-            "magnitudes": self.magnitudes.copy(),
-            "expected": self.expected.copy(),
+            "magnitudes": self.magnitudes.known.copy(),
+            "expected": self.magnitudes.expected.copy(),
             "held": self._held,
             "counts": {name: [s.steps, s.seconds, s.events, s.derivative_order] for name, s in self.instances.items()},
         }
@@ -384,11 +338,11 @@ class Coupled:
         self.time = memory["time"]
         self.outputs[:] = memory["outputs"]
         self.history.restore(memory["history"])
-        self._passed[:] = memory["passed"]
+        self._passed.values[:] = memory["passed"]
         for method, kept in zip(self._methods, memory["memories"], strict=True):
             method.restore(kept)
-        self.magnitudes[:] = memory["magnitudes"]
-        self.expected[:] = memory["expected"]
+        self.magnitudes.known[:] = memory["magnitudes"]
+        self.magnitudes.expected[:] = memory["expected"]
         self._held = memory["held"]
 
     def may_lag(self, place: int) -> bool:
@@ -397,27 +351,14 @@ class Coupled:
         direct = port.model.dependencies.get(port.variable.name, True)
         return not direct and not self.instances[port.model.name].interpolates
 
-    def accept(self) -> None:
-        """Accept the last step."""
-        np.maximum(self.magnitudes, np.abs(self.outputs), out=self.magnitudes)
-
-    def expect(self) -> None:
-        """Take the present values as magnitudes of outputs that start at zero and have no nominal."""
-        np.copyto(self.expected, np.abs(self.outputs), where=(self.magnitudes == 0.0) & (self.expected == 0.0))
-
     def event(self) -> bool:
         """Return True if an FMU has had an event of its own in the last step."""
         return any(instance.event for instance in self.instances.values())
 
-    def scales(self) -> Array:
-        """Return magnitudes of the outputs that set inputs."""
-        largest = np.maximum(np.maximum(self.magnitudes, self.expected), np.abs(self.outputs))
-        return _positive(largest[self.wiring.coupled])
-
     def ends(self) -> Array:
         """Return the inputs at the end of the last step, as the FMUs have received them, over their magnitudes."""
         assert self._held is not None  # there has been one
-        return self._held / _positive(np.abs(self.wiring.factor * self.magnitudes[self.wiring.source]))
+        return self._held / positive(np.abs(self.wiring.factor * self.magnitudes.known[self.wiring.source]))
 
     def nodes(self, size: float) -> list[float]:
         """Return the times [s], from now, at which the inputs of a step of a size are those of the outputs."""
@@ -434,11 +375,6 @@ class Coupled:
             yield
         except FMICallException as error:
             raise instance.failure(what, error) from error
-
-
-def _positive(values: Array) -> Array:
-    """Return magnitudes; where there is none yet, 1, FMI's default of nominal."""
-    return np.where(values > 0.0, values, 1.0)
 
 
 def _with_columns(old: Array, new: Array, columns: NDArray[np.intp]) -> Array:

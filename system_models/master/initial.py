@@ -4,6 +4,7 @@ The connections are worked through in the order of the initial dependencies. Aro
 cut at as few connections as a simple rule finds, and the inputs there are solved for.
 """
 
+import logging
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
@@ -22,6 +23,8 @@ from .system import Connection
 
 Edges = set[tuple[str, str]]
 Array = NDArray[np.float64]
+
+log = logging.getLogger(__name__)
 
 _MOST_PASSES = 20  # until discrete values around a loop come to rest
 
@@ -42,6 +45,34 @@ def initialise(
         loop = _Loop(instances, by_target, names, edges)
         evaluations += loop.solve(tolerance, most)
     return evaluations
+
+
+def with_feedthrough(instances: Mapping[str, Instance], names: list[str]) -> list[str]:
+    """Return those of some FMUs that give outputs for inputs newly set, without a step between: FMI 2 leaves it open.
+
+    The outputs of the others follow their inputs a step later.
+    """
+    return [name for name in names if _gives_outputs(instances[name])]
+
+
+def _gives_outputs(instance: Instance) -> bool:
+    state = instance.save() if instance.model.restores else None
+    try:
+        instance.read()
+        variables = [instance.model.variables[own] for own in instance.inputs.names]
+        instance.inputs.values[:] = [instance.get(variable) for variable in variables]
+        instance.set_inputs()
+        instance.read()
+    except FMICallException as error:
+        if state is None:
+            raise instance.failure("to give outputs after its inputs were set", error) from error
+        log.info("The FMU '%s' refuses outputs before a step; they lag behind its inputs.", instance.name)
+        instance.restore(state)
+        instance.feedthrough = False
+    finally:
+        if state is not None:
+            instance.release(state)
+    return instance.feedthrough
 
 
 def _edges(by_target: Mapping[str, Connection]) -> Edges:

@@ -184,13 +184,13 @@ def _report(coupled: Coupled, statistics: Statistics) -> None:
             statistics.steps,
             coupled.settings.smallest_step,
         )
-    for place in np.flatnonzero(coupled.expected > _MISJUDGED * coupled.magnitudes):
+    for place in np.flatnonzero(coupled.magnitudes.expected > _MISJUDGED * coupled.magnitudes.known):
         log.warning(
             "The tolerance was taken relative to %g for '%s', which has reached %g only: it names no nominal, and the "
             "first step was too long to judge it. Take a smaller step_size.",
-            coupled.expected[place],
+            coupled.magnitudes.expected[place],
             coupled.wiring.outputs[place],
-            coupled.magnitudes[place],
+            coupled.magnitudes.known[place],
         )
     if statistics.ended_by:
         log.warning("The FMU '%s' has ended the simulation at %g s.", statistics.ended_by, coupled.time)

@@ -157,7 +157,7 @@ class Stepper:
 
     def _accepted(self, attempt: Attempt, event: bool) -> None:
         coupled, statistics = self.coupled, self.statistics
-        coupled.accept()
+        coupled.magnitudes.accept(coupled.outputs)
         statistics.steps += len(attempt.rows)
         for _, _, (_, iterations, residual, *_) in attempt.rows:
             statistics.iterations += int(iterations)

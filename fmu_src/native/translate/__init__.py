@@ -5,9 +5,11 @@
     units         C functions under construction, values from several branches
     sources       functions of Python: trees, names, texts
     library       what functions of Python, math and numpy are in C
-    expressions   expressions of Python
+    conditions    comparisons, `and`, `or`, `not`, choices
+    expressions   other expressions of Python
     loops         loops that stay loops
     results       what C functions return
+    members       members of results that nothing reads
     constants     known arrays as tables
     grids         arrays at run time: elements, views, loops over them
     grid_parts    parts of them: by numbers, slices, places and masks

@@ -16,10 +16,10 @@ from .arrays import arrays_in, on_arrays
 from .expressions import Super
 from .grids import is_array
 from .interpreter import Scope
+from .members import Members
 from .passes import arranged
 from .results import (
     distinct,
-    fields_of,
     filled,
     forwarded,
     given_places,
@@ -38,7 +38,6 @@ from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, lea
 _COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 _CORE, _LAWS, _OF_LAYERS = "contact_core.", "contact_core.laws.", "contact_core.laws.stress"
 _PARTS = "system_models."
-_UNREAD = "unread_"  # stands, with a number, for a member that nothing reads in the end
 
 
 @dataclass
@@ -98,13 +97,11 @@ class Translator:
         reads: members that are read of the structs of functions, where that is known. instead: functions of scalars
         that stand for others, of arrays.
         """
-        self._reads = reads or {}
+        self.members = Members(reads or {})
         self._instead = instead or {}
         self.functions: list[tuple[str, str]] = []  # names and texts, each after those that it calls
         self._cache: dict[Any, CFunction] = {}
         self._names: set[str] = set()
-        self._unread: list[tuple[Any, str]] = []  # what a function is made from, and a member that nothing reads
-        self._keys: dict[str, Any] = {}  # what the functions are made from, by their names
         self._units: list[Unit] = []
         self._kept: list[Any] = []
 
@@ -128,39 +125,6 @@ class Translator:
                 needed |= code.names_in(_COMMENT.sub("", text))
                 kept.append((name, text))
         return constants.with_tables(code.merged(kept[::-1]))
-
-    def wanted(self, texts: Sequence[str], entries: Sequence["Entry"]) -> dict[Any, set[str]]:
-        """Return the members that anything reads of the structs of functions, by what these are; of entries all."""
-        found: dict[Any, set[str]] = {}
-        for text in texts:
-            for name in re.findall(r"(?<=[;{}])\n +(\w+)\(", text):  # calls whose results nothing reads
-                if name in self._keys:
-                    found.setdefault(self._keys[name], set())
-            for struct, name in re.findall(r"const struct (\w+)\s+(\w+)\s+=", text):
-                if struct in self._keys:
-                    found.setdefault(self._keys[struct], set()).update(re.findall(rf"\b{name}\.(\w+)", text))
-        for entry in entries:
-            found.pop(self._keys.get(entry.name), None)
-        return found
-
-    def missed(self, texts: Sequence[str]) -> list[tuple[Any, str]]:
-        """Return what a function is made from and the member, of members marked as unread that texts read after all."""
-        return [self._unread[int(place)] for text in texts for place in set(re.findall(rf"\b{_UNREAD}(\d+)", text))]
-
-    def _wanted(self, name: str, template: Any, names: list[str]) -> Any:
-        """Return the form of a result in which members that nobody reads are marked."""
-        if self._keys[name] not in self._reads:
-            return template
-        fields, key = iter(fields_of(template, names)), self._keys[name]
-
-        def marked(hole: Num) -> Num:
-            field = next(fields)
-            if hole.text or "[" in hole.kind or field in self._reads[key]:
-                return hole
-            self._unread.append((key, field))
-            return Num(f"{_UNREAD}{len(self._unread) - 1}", hole.kind)
-
-        return replaced(template, marked)
 
     # what a scope asks for
 
@@ -341,7 +305,7 @@ class Translator:
         if key not in self._cache:
             self._kept.append((closure, bound))
             name = self._new_name(closure.name)
-            self._keys[name] = key
+            self.members.keys[name] = key
             parameters: list[Num] = []
             first = self._written(name, closure, bound, None, parameters)
             if not first.returned:
@@ -393,7 +357,7 @@ class Translator:
 
     def _finished(self, name: str, closure: Closure, bound: dict[str, Any], template: Any) -> CFunction:
         parameters: list[Num] = []
-        template = self._wanted(name, template, part_names(closure.node))
+        template = self.members.marked(name, template, part_names(closure.node))
         holder = template if template is not None else ()
         unit = self._written(name, closure, bound, holder, parameters)
         every, all_fields = holes_in(holder), wanted_fields(holder, unit.part_names)

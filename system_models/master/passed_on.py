@@ -1,0 +1,39 @@
+"""Connections to inputs that hold their values over a step: integers, booleans, texts and discrete Reals."""
+
+from typing import TYPE_CHECKING, Any
+
+from ..fmu.errors import CouplingError
+from .system import Connection
+
+if TYPE_CHECKING:
+    from .coupled import Coupled
+
+_MOST_PASSES = 20  # until the values at a communication point come to rest
+
+
+class PassedOn:
+    """The last values of such connections, by which it is seen that they change."""
+
+    def __init__(self, connections: list[Connection]) -> None:
+        self.connections = connections
+        self.values: list[Any] = [None] * len(connections)
+
+    def settle(self, coupled: "Coupled") -> None:
+        """Set the inputs until nothing changes any more."""
+        for _ in range(_MOST_PASSES if self.connections else 0):
+            changed = set()
+            for n, connection in enumerate(self.connections):
+                value = coupled.get(connection.source)
+                if value != self.values[n]:
+                    coupled.set(connection.target.name, connection.result(value))
+                    self.values[n] = value
+                    changed.add(connection.target.model.name)
+            for name in changed:
+                coupled.read(coupled.instances[name])
+            if not changed:
+                return
+        if self.connections:
+            raise CouplingError(
+                f"Discrete values change again and again at {coupled.time:g} s: "
+                f"{', '.join(sorted(connection.source.name for connection in self.connections))}. Break their loop."
+            )
