@@ -144,7 +144,7 @@ def test_a_face_width_is_a_number_to_change_unless_it_decides_the_grid():
 # the grid
 
 
-@pytest.mark.parametrize("width", ["0.2 mm", "0.4 mm", "0.7 mm"])
+@pytest.mark.parametrize("width", ["0.2 mm", "0.33 mm", "0.7 mm"])
 def test_the_rows_of_a_line_are_even_and_make_up_its_face(width):
     scene = Scene.from_toml("fzg_flank", {"film.width": width})
     period = scene.rows * scene.film.spacing

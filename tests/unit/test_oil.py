@@ -7,11 +7,12 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import OperatingPointError, Scene, Transient, advance, initial_state, solve
+from contact_core import OperatingPointError, RangeFlag, Scene, Transient, advance, initial_state, solve
 from contact_core.deterministic import oil_temperature as oil_module
 from contact_core.deterministic.oil_temperature import inlet_factor
 from contact_core.kernels import moving_source, thinning
 from contact_core.scene import Case
+from contact_core.state import flags_of_tribofilm
 
 SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none", "film.tolerance": "1e-4"}
 FIELD = {"heat.model": "field"}
@@ -225,6 +226,10 @@ def test_the_tribofilms_constants_are_asked_for_the_temperature_that_it_feels():
         advance(scene, hot, state, 0.0)
     bodies = {"body_temperature_1": point.temperature, "body_temperature_2": point.temperature}
     advance(scene, replace(point, temperature=point.temperature + 40.0, **bodies), state, 0.0)
+    law, warm = scene.tribofilm, point.temperature
+    assert not flags_of_tribofilm(law, (warm, warm)) & RangeFlag.TRIBOFILM_TEMPERATURE
+    for pair in ((warm, warm + 40.0), (warm + 40.0, warm)):  # one body is enough
+        assert RangeFlag.TRIBOFILM_TEMPERATURE in flags_of_tribofilm(law, pair)
 
 
 def test_the_order_of_changes_does_not_matter():
@@ -237,6 +242,9 @@ def test_the_order_of_changes_does_not_matter():
     scene = Scene.from_toml("mtm_zddp", changes)
     assert scene == Scene.from_toml("mtm_zddp", dict(reversed(changes.items())))
     assert (scene.lubricant.flow, scene.tribofilm.edge_weight) == ("local", 20.0)
+    chosen = {"tribofilm.model": "none", "tribofilm.set": "gosvami"}  # a model is chosen of what a set says
+    for pair in (chosen, dict(reversed(chosen.items()))):
+        assert Scene.from_toml("mtm_zddp", pair).tribofilm.name == "none"
 
 
 def test_a_short_form_is_a_model_in_any_order():

@@ -8,6 +8,7 @@ import pytest
 from comparison import approx
 
 from contact_core import ContactState, Outputs, Scene, advance, initial_state
+from contact_core.laws.stress import share_down_to
 from contact_core.reference.stresses import line_stress
 from contact_core.regression import fatigue, stress
 from contact_core.regression.contact import evaluate
@@ -17,6 +18,7 @@ from contact_core.regression.surfaces import tribofilms_of
 from contact_core.scene import Case
 from contact_core.state import Classes, changed
 from contact_core.state.classes import WEIGHTS, unharmed_classes
+from contact_core.surfaces.patches import bare_heights
 from contact_core.surfaces.track_means import folded, means_of
 
 FAST = {"film.model": "regression", "stress.model": "half_space"}
@@ -62,6 +64,13 @@ def test_smooth_cycles_of_a_line_are_those_of_its_closed_form() -> None:
             assert peak[k] == approx(np.sqrt(3.0) * root_j2.max(), rel=0.01)
             assert 0.5 * root_j2.max() <= shear[k, 0] * 1.01  # a sphere holds the way from zero to the largest
             assert shear[k, 0] <= root_j2.max()
+
+
+def test_of_an_even_risk_the_share_down_to_a_depth_is_that_depth_over_the_deepest() -> None:
+    """At the faces, halfway between the layers; nothing is known below the last one."""
+    depths, even = np.array([1.0, 3.0, 4.0, 8.0]), np.ones(4)
+    shares = [share_down_to(depth, even, depths) for depth in (0.5, 2.0, 3.5, 6.0, 8.0)]
+    assert shares == approx([0.0, 2.0 / 8.0, 3.5 / 8.0, 6.0 / 8.0, 1.0])
 
 
 def test_smooth_bodies_have_the_stress_of_hertz_and_scale_with_his_pressure() -> None:
@@ -232,8 +241,13 @@ def test_the_change_of_level_keeps_damage_and_pits() -> None:
 def test_damage_of_a_new_contact_comes_to_the_patches_by_height() -> None:
     """A run that begins at the regression level has no field below: the highest points are taken as the most loaded."""
     scene = line(BASQUIN, COARSE, NO_WEAR)
-    state, _ = run(scene, 1, 60.0)
+    state, outputs = run(scene, 1, 60.0)
     after = folded(scene, state)
     assert after.below is not None
+    worst = [damage.reshape(scene.depths.size, -1).max(axis=0) for damage in after.below.damage]
+    for heights, each in zip(bare_heights(scene, scene.rows), worst, strict=True):
+        assert np.all(np.diff(each[np.argsort(heights, axis=None)]) >= 0.0)
+    # the error of what the curves have added stays with it
+    assert after.below.late == approx([outputs.error_damage * each.mean() for each in worst], rel=1e-9)
     assert isinstance(state.classes, Classes)
     assert after.below.damage_1.max() == approx(min(state.classes.damage_1.max(), 1.0), rel=1e-9)
