@@ -11,6 +11,8 @@ from contact_core import OperatingPointError, RangeFlag, Scene, Transient, advan
 from contact_core.deterministic import oil_temperature as oil_module
 from contact_core.deterministic.oil_temperature import inlet_factor
 from contact_core.kernels import moving_source, thinning
+from contact_core.regression.oil import MeanHeat
+from contact_core.regression.smooth_film import smooth_film
 from contact_core.scene import Case
 from contact_core.state import flags_of_tribofilm
 
@@ -145,6 +147,25 @@ def test_shear_heat_in_the_inlet_thins_the_film_by_its_factor(flow):
     factor = inlet_factor(Case(hot, op))
     assert 0.3 < factor < 0.95
     assert central(hot, state, op) / central(cold, state, op) == approx(factor, rel=0.02)
+
+
+@pytest.mark.parametrize(("speed", "ratio"), [(6.0, 1.0), (0.5, 1.5), (-6.0, 0.2)])
+def test_the_regression_level_has_the_same_factor(speed, ratio):
+    cold, _ = smooth({"lubricant.conductivity": "0.05 W/(m K)"})
+    hot, _ = smooth({"lubricant.conductivity": "0.05 W/(m K)"}, {"heat.inlet_shear": "gupta"})
+    op = sliding(cold, speed, ratio)
+    films = [smooth_film(Case(scene.at_level("regression"), op), 1e-6).film for scene in (cold, hot)]
+    assert films[1] / films[0] == approx(inlet_factor(Case(hot, op)), rel=1e-3)
+
+
+def test_equal_bodies_of_different_temperature_meet_halfway_and_share_the_power():
+    """The surfaces are as far above the bodies' mean as half of the power warms one of them."""
+    conductance, area, power, bodies = 2e5, 1e-8, 0.4, (350.0, 310.0)
+    column = [np.array([value]) for value in (conductance, conductance, *bodies, area, 1e-7)]
+    heat = MeanHeat(*column, 2.0 * conductance)
+    rise, into_1 = heat.surface(power)
+    assert rise == approx(0.5 * power / (conductance * area))
+    assert into_1 - (power - into_1) == approx(conductance * area * (bodies[1] - bodies[0]))
 
 
 def test_bodies_as_inputs_warm_the_oil_that_they_draw_in():

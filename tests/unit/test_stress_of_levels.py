@@ -8,11 +8,12 @@ import pytest
 from comparison import approx
 
 from contact_core import ContactState, Outputs, Scene, advance, initial_state
+from contact_core.kernels.stress_measures import von_mises
 from contact_core.laws.stress import share_down_to
 from contact_core.reference.stresses import line_stress
 from contact_core.regression import fatigue, stress
 from contact_core.regression.contact import evaluate
-from contact_core.regression.near_surface import CURVES
+from contact_core.regression.near_surface import CURVES, meetings
 from contact_core.regression.smooth_cycles import smooth_cycles
 from contact_core.regression.surfaces import tribofilms_of
 from contact_core.scene import Case
@@ -66,6 +67,14 @@ def test_smooth_cycles_of_a_line_are_those_of_its_closed_form() -> None:
             assert shear[k, 0] <= root_j2.max()
 
 
+def test_residual_stress_below_a_line_adds_to_its_von_mises_stress() -> None:
+    depths, x, residual = np.array([0.1, 0.3, 0.7, 1.5]), np.linspace(-3.0, 3.0, 6001), 0.4
+    _, peak = smooth_cycles(None, 0.2, residual).at(0.0, np.zeros(1), depths)
+    along = residual * np.array([1.0, 1.0, 0.0, 0.0, 0.0, 0.0])[:, None]
+    exact = [von_mises(line_stress(x, np.full_like(x, depth), 1.0, 1.0, 0.3) + along).max() for depth in depths]
+    assert peak == approx(exact, rel=0.01)
+
+
 def test_of_an_even_risk_the_share_down_to_a_depth_is_that_depth_over_the_deepest() -> None:
     """At the faces, halfway between the layers; nothing is known below the last one."""
     depths, even = np.array([1.0, 3.0, 4.0, 8.0]), np.ones(4)
@@ -86,6 +95,13 @@ def test_smooth_bodies_have_the_stress_of_hertz_and_scale_with_his_pressure() ->
     deeper = 2.0 * scene.depths[4:]  # as deep in half widths
     at = np.interp(deeper, deep.depths, stressed(deep).cycles.shear[0, :, 0, 0])
     assert at == approx(2.0 * shear[0, 4:, 0, 0], rel=0.03)
+
+
+def test_a_body_meets_the_roughness_of_the_other_by_what_slides_past_a_point_on_its_way() -> None:
+    """The way 2 a of 10 lengths takes 2 a / u, in which u_s 2 a / u of the other body pass: 10 u_s / u lengths."""
+    assert meetings((0.5, 0.3), 10.0, (0.0, 1.0)) == approx([10.0 * 0.2 / 0.5, 0.0])  # all roughness is body 2's
+    assert meetings((0.5, 0.3), 10.0, (1.0, 0.0)) == approx([0.0, 10.0 * 0.2 / 0.3])
+    assert not meetings((0.4, 0.4), 10.0, (0.5, 0.5)).any()  # in rolling the same asperities stay together
 
 
 def test_fainter_roughness_ends_at_the_smooth_bodies() -> None:
