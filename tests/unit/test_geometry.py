@@ -169,6 +169,11 @@ def test_the_grid_of_a_roller_holds_its_ends_and_one_that_does_not_is_refused():
     )
 
 
+def test_a_square_grid_has_as_much_room_across_as_along():
+    along, across = Scene.from_toml("mtm_zddp").room
+    assert across == approx(along, rel=1e-12)
+
+
 def test_an_ellipse_that_a_square_grid_cannot_hold_asks_for_a_width():
     changes = {"geometry__radius_y": "100 mm", "operation__load": "150 N"}
     assert "is too small" in refusal("mtm_zddp", **changes, film__width="0.6 mm")
