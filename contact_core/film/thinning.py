@@ -121,6 +121,8 @@ def _steepness(pressure: Array, spacing: float) -> Array:
     """
     square = np.zeros_like(pressure)
     for axis in range(2):
+        if pressure.shape[axis] == 1:  # the one row of a line
+            continue
         slope_2 = np.moveaxis((np.diff(pressure, axis=axis) / spacing) ** 2, axis, 0)
         sums = np.moveaxis(square, axis, 0)  # a view
         sums[:-1] += slope_2

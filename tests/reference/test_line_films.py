@@ -10,6 +10,7 @@ from contact_core import line_contact
 from contact_core.laws.density import DowsonHigginson
 from contact_core.laws.rheology import Carreau
 from contact_core.reference import (
+    SmoothContact,
     SmoothLine,
     bair_thinning_factor,
     dowson_line,
@@ -175,3 +176,12 @@ def test_bairs_factor_is_one_for_newtonian_oils_and_falls_with_sliding():
     slip = [bair_thinning_factor(3e-7, 1.0, 0.05, 1e5, 0.5, ratio) for ratio in (0.0, 0.1, 0.5, 1.0)]
     assert np.all(np.diff(slip) < 0.0)
     assert bair_thinning_factor(3e-7, -1.0, 0.05, 1e5, 0.5, -0.5) == slip[2]
+
+
+def test_the_circular_load_of_a_line_is_that_of_a_circle_whose_contact_is_as_deep():
+    line, a = ROLLER, hertz_line(ROLLER.load, ROLLER.radius, 1.0, ROLLER.reduced_modulus).a
+    load = a**3 * line.reduced_modulus / (1.5 * line.radius)  # of a ball of that radius with this half width
+    assert hertz_point(load, line.radius, line.radius, line.reduced_modulus).a == approx(a)
+    oil = (line.entrainment_speed, line.viscosity, line.pressure_coefficient)
+    circle = SmoothContact(load, *oil, line.radius, line.radius, line.reduced_modulus)
+    assert line.circular_load == approx(circle.moes_parameters[0], rel=1e-9)

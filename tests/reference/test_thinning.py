@@ -90,6 +90,19 @@ def test_a_hardly_pressed_eyring_film_yields_by_the_tangent_of_its_flow_curve():
         assert one_node(oil, eta, sliding, gap, 1.0, 1.0 / eta) == approx(expected, rel=1e-6, abs=1e-9 / eta)
 
 
+def test_an_even_gradient_thins_the_oil_alike_up_to_the_edges_and_in_a_single_row():
+    x, y, spacing = 1e-6 * np.arange(9), 1e-6 * np.arange(7), 1e-6
+    for along, across in ((3e13, 4e13), (5e13, 0.0)):
+        pressure = 1e8 + along * x[None, :] + across * y[:, None]
+        gap, viscosity = np.full(pressure.shape, 1e-7), np.full(pressure.shape, 0.1)
+        found = thinned_fluidity(Eyring(STRESS, 0.05), 0.2, gap, pressure, spacing, viscosity)
+        assert found == approx(np.full(gap.shape, found[3, 4]), rel=1e-9)
+        assert found[3, 4] > 0.0
+    row = [field[:1] for field in (gap, pressure, viscosity)]  # of the last one, which is the same along y
+    alone = thinned_fluidity(Eyring(STRESS, 0.05), 0.2, row[0], row[1], spacing, row[2])
+    assert alone == approx(found[:1], rel=1e-12)
+
+
 def test_the_flow_is_finite_where_the_oil_is_stiff_and_pressures_jump():
     rng = np.random.Generator(np.random.Philox(2))
     shape = (40, 40)

@@ -117,7 +117,7 @@ def test_origins_follow_sets_settings_and_accuracy():
 def test_numbers_of_ones_own_scene_and_set_are_assumed_until_the_files_name_a_source(tmp_path: Path):
     (tmp_path / "fitted.toml").write_text(
         '[mine]\nsource = "my rig"\n[mine.boundary_friction]\nmodel = "film_blend"\nbare = 0.2  # assumed\nfilm = 0.1\n'
-        'slip_speed = "1 um/s"\n',
+        'slip_speed = "1 um/s"\n[mine.wear]  # a paper\nmodel = "archard"\nbare = 1e-5\nfilm = 1e-6\n',
         "utf-8",
     )
     text = (Path(contact_core.__file__).parent / "data" / "scenes" / "mtm_zddp.toml").read_text("utf-8")
@@ -126,11 +126,14 @@ def test_numbers_of_ones_own_scene_and_set_are_assumed_until_the_files_name_a_so
     rest = tail[tail.index("[heat]") :]
     scene = tmp_path / "mine.toml"
     scene.write_text(f'{head}[boundary_friction]\nset = "fitted.toml:mine"\n\n{rest}', "utf-8")
-    found = origins(scene, Scene.from_toml(scene).to_dict())
+    settings = {"wear.set": f"{tmp_path / 'fitted.toml'}:mine"}
+    found = origins(scene, Scene.from_toml(scene, settings).to_dict(), settings)
     assert found["surface_1.rq"].word == "assumed"
     assert found["boundary_friction.film"].source == "my rig"
     assert found["boundary_friction.film"].set_name == "mine, fitted.toml"
     assert found["boundary_friction.bare"].word == "assumed"
+    assert found["boundary_friction.film"].word == ""
+    assert found["wear.film"].source == "a paper"  # nearer than that of the whole set
 
 
 def test_comments_are_read_as_toml_has_them():

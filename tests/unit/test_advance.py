@@ -18,6 +18,7 @@ from contact_core import (
     solve,
 )
 from contact_core.quantities import LEVELS, TABLE, value_out_of_range
+from contact_core.scene import Case
 
 BARE = CHEAP | {"tribofilm.model": "none"}
 
@@ -287,6 +288,25 @@ def test_a_new_solution_follows_the_inputs_and_not_the_calls():
     assert moved.blocks_mixed + moved.blocks_dry == solved + 1.0
     _, warmer = advance(scene, replace(op, temperature=op.temperature + 4.9), state, 0.1)
     assert warmer.blocks_mixed + warmer.blocks_dry == solved + 1.0
+
+
+@pytest.mark.parametrize(
+    ("name", "factor"),
+    [
+        *((name, 1.05) for name in ("load", "speed_1", "speed_2", "spin", "radius_x", "radius_y")),
+        *((name, 1.02) for name in ("temperature", "body_temperature_1", "body_temperature_2")),  # 7 K
+    ],
+)
+def test_a_change_of_any_input_asks_for_a_new_solution(name, factor):
+    scene, _, op = cheap(control__input_change=0.02, heat__bulk="inputs")
+    warm, radius = op.temperature, scene.geometry.radius_x
+    given = {"spin": 100.0, "body_temperature_1": warm, "body_temperature_2": warm, "radius_x": radius}
+    op = replace(op, radius_y=radius, **given)
+    if name == "temperature":  # bodies without an input have the oil's
+        op = replace(op, body_temperature_1=None, body_temperature_2=None)
+    case, other = (Case.bind(scene, replace(op, **{name: f * getattr(op, name)})) for f in (1.0, factor))
+    assert other.differs_from(case.op)
+    assert not case.differs_from(case.op)
 
 
 def test_the_suggested_step_is_when_the_next_solution_is_due():

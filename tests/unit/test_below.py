@@ -11,6 +11,7 @@ from contact_core import ContactState, RangeFlag, SceneError, advance, initial_s
 from contact_core.deterministic import damage
 from contact_core.deterministic.subsurface import Traction, passed
 from contact_core.scene import Case
+from contact_core.state.below import nothing_below
 from contact_core.surfaces.patches import heights_of, track_rows
 
 DRY = CHEAP | {"control.driver": "dry", "control.dry_instants": "3"}
@@ -246,6 +247,15 @@ def test_the_error_by_few_instants_covers_what_many_find_and_a_tenth_of_it_would
 def test_tables_that_cannot_be_are_refused_with_a_way_out(changes, said):
     with pytest.raises(SceneError, match=said):
         cheap(DRY | changes)
+
+
+def test_the_error_of_a_mean_damage_is_two_deviations_and_half_of_what_the_last_rate_has_changed_by():
+    """A rate is late by half of its change for as long as it has been held; 95 % lie within two deviations."""
+    below = nothing_below(2, 3, 4)
+    given = {"late": [1e-3, 0.0], "step": [2e-6, -4e-6], "few": [0.0, -2e-3], "variance": [4e-6, 0.0]}
+    below = replace(below, held=500.0, **{name: np.array(pair) for name, pair in given.items()})
+    assert below.errors(0) == approx((1e-3 + 0.5 * 2e-6 * 500.0, 2.0 * 2e-3))
+    assert below.errors(1) == approx((0.5 * 4e-6 * 500.0, 2e-3))
 
 
 def test_a_pit_is_no_deeper_before_the_contact_is_solved_again():

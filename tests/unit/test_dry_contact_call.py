@@ -132,3 +132,10 @@ def test_light_and_heavy_loads_on_smooth_and_coarse_bodies_converge(pressure, rq
     assert found.converged
     assert abs(found.load_error) < 1e-12
     assert found.pressure_max <= 6e9 * (1.0 + 1e-12)
+
+
+@pytest.mark.parametrize(("shape", "reaches"), [((21, 9), True), ((9, 21), True), ((21, 21), False)])
+def test_a_contact_that_reaches_any_edge_of_the_array_says_so(shape, reaches):
+    """Half widths of 6 nodes."""
+    load = (6 * 1e-6) ** 3 * 230e9 / (1.5 * 0.01)
+    assert dry_contact(np.zeros(shape), 1e-6, 0.01, load, 230e9, tolerance=1e-4).reaches_edge is reaches

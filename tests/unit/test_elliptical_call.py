@@ -7,6 +7,7 @@ from comparison import approx
 from contact_core import OperatingPointError, point_contact
 from contact_core.film.fitted import Extent, fitted_grid
 from contact_core.kernels.multigrid.cycle import _level_count
+from contact_core.reference import hertz_point
 from contact_core.shapes import Point
 
 CALL = {
@@ -31,6 +32,23 @@ def test_radii_too_far_apart_are_refused_with_the_limit(radius_y):
 def test_a_film_too_thick_for_the_smaller_radius_is_refused():
     with pytest.raises(OperatingPointError, match=r"over 0\.01 of radius_y = 0\.001 m"):
         point_contact(**(CALL | {"load": 0.1, "speed_1": 20.0, "speed_2": 20.0}), radius_y=1e-3)
+
+
+@pytest.mark.parametrize(("radius_x", "radius_y"), [(10e-3, 2e-3), (2e-3, 10e-3)])
+@pytest.mark.parametrize(("nodes", "told"), [(33, True), (65, False)])
+def test_few_nodes_across_the_shorter_side_of_an_ellipse_are_told(radius_x, radius_y, nodes, told):
+    at_rest = CALL | {"radius_x": radius_x, "speed_1": 0.0, "speed_2": 0.0}
+    side = 2.0 * hertz_point(20.0, 2e-3, 10e-3, 230e9).b  # half widths of 8 and 2.8 nodes, or twice as many
+    found = point_contact(**at_rest, radius_y=radius_y, grid=(nodes, nodes), domain=(-side, side, -side, side))
+    assert ("Fewer than 8 nodes lie across the Hertz contact." in found.warnings) is told
+
+
+@pytest.mark.parametrize("ratio", [0.1, 10.0])
+def test_under_a_thick_film_the_grid_of_an_ellipse_ends_where_it_is_as_open_as_that_of_a_ball(ratio):
+    film, load = 3e-6, 1e-3  # much thicker than the load presses the bodies together
+    ball, ellipse = (Extent.of(Point(10e-3, r * 10e-3), load, 230e9, film) for r in (1.0, ratio))
+    assert ellipse.side**2 / ratio == approx(ball.side**2, rel=0.05)
+    assert ellipse.left == approx(ball.left, rel=0.05)
 
 
 @pytest.mark.parametrize("ratio", [1 / 30, 0.1, 0.37, 0.9, 1.3, 3.0, 10.0, 30.0])

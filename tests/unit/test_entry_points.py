@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from contact_core import Scene, SceneError
+from contact_core.entry_points import versions
 from contact_core.laws import SLOTS, offered
 from contact_core.laws.viscosity import Barus
 from fmu_src.runtime import resources as of_contacts
@@ -148,6 +149,12 @@ def test_an_fmu_refuses_another_version_of_the_package_of_its_law(package: Packa
     of_contacts.read.cache_clear()
     with pytest.raises(SceneError, match="built with others-work 1, but 2 is installed"):
         of_contacts.read(str(tmp_path), module)
+
+
+def test_a_law_in_a_part_of_a_package_is_of_that_package(package: Package) -> None:
+    package("tribofmu.laws.viscosity", "mine = others_work.laws:Mine", LAW)
+    assert versions({"others_work"}) == {"others-work": "1"}
+    assert versions({"laws", "others"}) == {}
 
 
 def test_an_fmu_with_our_laws_names_our_packages_alone() -> None:

@@ -3,10 +3,12 @@
 import pytest
 from comparison import approx
 
-from contact_core import Error, RangeFlag, Scene, advance, initial_state, uncertainty
+from contact_core import Error, Outputs, RangeFlag, Scene, advance, initial_state, uncertainty
+from contact_core.deterministic.solution_error import with_errors_of_the_solution
 from contact_core.film.grid_error import film_error, friction_error, inlet_error, load_ratio_error, solids_error
 from contact_core.quantities import ABSOLUTE, STATED, TABLE
-from contact_core.state import flag_of_errors
+from contact_core.scene import Case
+from contact_core.state import changed, flag_of_errors
 
 # first blocks on fresh surfaces on 65 nodes and, of the same surfaces, on 257: rows of docs/measured/film/moving.md
 COARSE_AND_FINE = {
@@ -18,10 +20,14 @@ COARSE_AND_FINE = {
 NODES = {"azam_case_a": (1.024, 1.02), "mtm_zddp": (1.024, 0.68)}  # per correlation length and across the inlet, on 65
 
 
-def cheap(**changes):
+def cheap_scene(**changes):
     coarse = {"film.points": "33", "surface_1.correlation_length": "16 um", "surface_2.correlation_length": "16 um"}
     quick = {"control.driver": "dry", "film.tolerance": "1e-2"}
-    scene = Scene.from_toml("azam_case_a", coarse | quick | {k.replace("__", "."): v for k, v in changes.items()})
+    return Scene.from_toml("azam_case_a", coarse | quick | {k.replace("__", "."): v for k, v in changes.items()})
+
+
+def cheap(**changes):
+    scene = cheap_scene(**changes)
     return scene, *advance(scene, scene.operation.point, initial_state(scene), 60.0)
 
 
@@ -77,6 +83,27 @@ def test_the_deterministic_level_states_grid_time_sampling_and_iteration_apart_a
             assert found[name].together <= getattr(out, stated) * value * (1.0 + 1e-12), name
     assert out.error_film == approx(found["h_c"].together / out.h_c)
     assert out.error_load_ratio == approx(found["contact_load_ratio"].together)
+
+
+@pytest.mark.parametrize("rougher", [1, 2])
+def test_the_tribofilm_of_the_rougher_body_is_less_sure_by_the_grid(rougher):
+    rough = {f"surface_{rougher}__rq": "100 nm", f"surface_{3 - rougher}__rq": "20 nm"}
+    scene = cheap_scene(**rough)
+    out = changed(Outputs(), contact_load_ratio=0.5, tribofilm_1=1e-8, tribofilm_2=1e-8)
+    names = [f"tribofilm_{body}" for body in (rougher, 3 - rougher)]
+    case = Case.bind(scene, scene.operation.point)
+    found = with_errors_of_the_solution(case, out, dict.fromkeys(names, Error()))
+    assert found[names[0]].grid > 1.2 * found[names[1]].grid
+
+
+def test_where_oil_and_solids_rub_alike_the_error_of_friction_is_that_of_the_oils_film():
+    """What moves of the load from one to the other changes nothing then, and how much it is does not matter."""
+    scene = cheap_scene()
+    out = changed(Outputs(), contact_load_ratio=0.75, friction_solid=-3.0, friction_force=-4.0, h_c=1e-7)
+    case = Case.bind(scene, scene.operation.point)
+    found = with_errors_of_the_solution(case, out, {"friction_force": Error(), "h_c": Error()})
+    assert found["h_c"].grid > 0.0
+    assert found["friction_force"].grid / 1.0 == approx(found["h_c"].grid / 1e-7, rel=1e-9)
 
 
 def test_a_finer_grid_states_a_smaller_error():

@@ -144,7 +144,7 @@ def test_a_face_width_is_a_number_to_change_unless_it_decides_the_grid():
 # the grid
 
 
-@pytest.mark.parametrize("width", ["0.2 mm", "0.4 mm", "0.7 mm"])
+@pytest.mark.parametrize("width", ["0.2 mm", "0.33 mm", "0.7 mm"])
 def test_the_rows_of_a_line_are_even_and_make_up_its_face(width):
     scene = Scene.from_toml("fzg_flank", {"film.width": width})
     period = scene.rows * scene.film.spacing
@@ -167,6 +167,11 @@ def test_the_grid_of_a_roller_holds_its_ends_and_one_that_does_not_is_refused():
     assert "film.width = 0.0015 m is too small: the ends of geometry.face_width = 0.002 m" in refusal(
         "fzg_flank", **changes
     )
+
+
+def test_a_square_grid_has_as_much_room_across_as_along():
+    along, across = Scene.from_toml("mtm_zddp").room
+    assert across == approx(along, rel=1e-12)
 
 
 def test_an_ellipse_that_a_square_grid_cannot_hold_asks_for_a_width():

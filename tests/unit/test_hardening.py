@@ -11,7 +11,9 @@ from independent import gap
 
 from contact_core import march, solve
 from contact_core.deterministic.transient import rolled, yielded
+from contact_core.film.solids import pressed
 from contact_core.kernels.dry_giving import solve_dry_giving
+from contact_core.kernels.giving_half_space import giving
 from contact_core.kernels.half_space import HalfSpace
 from contact_core.kernels.surface_give import SurfaceGive
 from contact_core.laws.plasticity import ElasticPerfectlyPlastic
@@ -218,3 +220,32 @@ def test_a_contact_that_gives_way_has_one_solution_from_any_start():
     assert left[pressure == 0.0].min() > -1e-6
     assert left[pressure == 1.0].max(initial=0.0) < 1e-6
     assert (give.yielded(pressure) > 0.0).sum() > 20
+
+
+def test_solids_beside_oil_give_way_under_both_together():
+    """By the sum of both pressures, the half space under the solids' alone: `gap` holds what it gives under the oil."""
+    noise, n = np.random.Generator(np.random.Philox(5)), 24
+    x = np.linspace(-1.2, 1.2, n)
+    heights = x[None, :] ** 2 + x[:, None] ** 2 + 0.05 * noise.standard_normal((n, n))
+    first, fluid = noise.uniform(0.3, 0.6, (n, n)), noise.uniform(0.0, 0.4, (n, n))
+    give = SurfaceGive(noise.uniform(0.1, 0.3, (n, n)), first, first + 0.2, 5.0)
+    half_space, cap, start = HalfSpace(n, n, 0.05, "scipy"), np.ones((n, n)), np.ones((n, n))
+    solids, rigid, converged, _ = pressed(half_space, heights, cap, 30.0, start, fluid, (0.0, 0.0), give, 1e-9, 5000)
+    left = rigid + heights + half_space.deform(solids) + give.at(fluid + solids)
+    bears = (solids > 0.0) & (solids + fluid < 1.0)
+    assert converged
+    assert bears.sum() > 20
+    assert np.abs(left[bears]).max() < 1e-6
+
+
+def test_a_surface_that_gives_way_responds_to_a_small_step_as_it_deforms():
+    noise, n, small = np.random.Generator(np.random.Philox(3)), 12, 1e-6
+    first = noise.uniform(0.2, 0.4, (n, n))
+    give = SurfaceGive(noise.uniform(0.1, 0.3, (n, n)), first, first + 0.2, 5.0)
+    surface = giving(HalfSpace(n, n, 0.05, "scipy"), give)
+    pressure = noise.choice([0.1, 0.5, 0.9], (n, n)) + noise.uniform(0.0, 0.05, (n, n))
+    pressure += np.where(np.abs(pressure - first) < 0.01, 0.02, 0.0)
+    pressure += np.where(np.abs(pressure - first - 0.2) < 0.01, 0.02, 0.0)  # beside where the slope jumps
+    step = noise.standard_normal((n, n))
+    change = surface.deform(pressure + small * step) - surface.deform(pressure)
+    assert surface.respond(pressure, step) == approx(change / small, rel=1e-5)

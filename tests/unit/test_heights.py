@@ -237,6 +237,13 @@ def test_heights_that_cannot_be_used_are_refused_with_a_way_out(folder, changes,
         Scene.from_toml("azam_case_a", given)
 
 
+def test_the_side_that_does_not_fit_is_named():
+    given = heights(dimple(300), 1e-6, "flat")
+    for size, words in (((400e-6, 200e-6), "long along x, the patch 0.0002 m"), ((200e-6, 400e-6), "long along y")):
+        (said,) = given.errors(size)  # along y and x
+        assert words in said
+
+
 def test_a_file_lies_beside_the_scene_wherever_it_is_read_from(folder, monkeypatch):
     scene = Path(__file__).parents[2] / "contact_core" / "data" / "scenes" / "azam_case_a.toml"
     given = '[surface_2.heights]\nfile = "patch.csv"\nspacing = "1 um"\nunit = "nm"\n\n[lubricant]'
@@ -346,6 +353,20 @@ def test_rows_that_a_scar_adds_repeat_the_patch():
     own, more = bare_heights(scene, scene.rows)[1], bare_heights(scene, scene.rows + 8)[1]
     assert np.array_equal(more[4:-4], own)
     assert np.array_equal(more[:4], own[-5:-1])
+
+
+def test_statistics_of_a_wave_and_of_pits_are_those_of_textbooks_at_any_level():
+    size, length = 50e-9, 720e-6
+    wave = 3e-6 + size * np.sin(2.0 * np.pi * (np.arange(720) + 0.5) * 1e-6 / length)
+    found = statistics_of(np.tile(wave, (4, 1)), 1e-6)
+    assert found.rms == approx(size / np.sqrt(2.0), rel=1e-9)
+    assert found.ra == approx(2.0 * size / np.pi, rel=1e-4)
+    assert found.skewness == approx(0.0, abs=1e-9)
+    assert found.peak_to_valley == approx(2.0 * size, rel=1e-4)
+    assert found.slope == approx(2.0 * np.pi / length * found.rms, rel=2e-3)
+    pits = np.full((16, 16), 3e-6)
+    pits[::4, ::4] -= size
+    assert statistics_of(pits, 1e-6).skewness == approx(-(1.0 - 2.0 / 16.0) / np.sqrt(15.0 / 256.0), rel=1e-6)
 
 
 def test_what_the_grid_cuts_is_what_is_missing_in_its_rms():

@@ -47,14 +47,14 @@ def test_the_kernels_are_kept_in_a_private_temporary_folder_which_is_said(read_o
 
 def test_a_folder_that_others_can_write_is_not_taken(read_only: Path, tmp_path: Path) -> None:
     temporary = tmp_path / "temporary"
-    open_to_all = temporary / f"tribofmu-kernels-{os.getuid()}"
-    open_to_all.mkdir(parents=True)
-    open_to_all.chmod(0o777)
+    open_to_some = temporary / f"tribofmu-kernels-{os.getuid()}"
+    open_to_some.mkdir(parents=True)
+    open_to_some.chmod(0o770)  # its group is enough
     said, _ = imported(read_only, temporary)
     chosen = Path(said.partition(" ")[0])
     assert chosen.parent == temporary
-    assert chosen != open_to_all
-    assert not any(open_to_all.iterdir())
+    assert chosen != open_to_some
+    assert not any(open_to_some.iterdir())
 
 
 def test_a_place_that_the_user_has_chosen_stands(read_only: Path, tmp_path: Path) -> None:

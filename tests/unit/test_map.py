@@ -10,12 +10,14 @@ import pytest
 from comparison import approx
 from mapped_scene import NOISE, chart, drawn, histories, knots, mapped_scene, scene_of
 
-from contact_core import OperatingPoint, Outputs, RangeFlag, Scene, advance, initial_state, uncertainty
+from contact_core import Error, OperatingPoint, Outputs, RangeFlag, Scene, advance, initial_state, uncertainty
 from contact_core.errors import SceneError
 from contact_core.mapped.fitting import Rule, design, left_out, predicted, spread_at, widths_at
-from contact_core.mapped.knot import contact_of, samples_of
+from contact_core.mapped.knot import _knot, contact_of, samples_of
 from contact_core.mapped.map import Map, digest_of, read, shipped_maps
 from contact_core.mapped.query import half_widths_of, here, leverage, told, total
+from contact_core.scene import Case
+from contact_core.state import changed
 
 STATED = (0.3, 0.4, 0.2)  # half widths of the regression level
 NAMES = ("friction_coefficient", "h_c", "contact_load_ratio")
@@ -43,6 +45,19 @@ def test_a_query_is_the_polynomials_that_were_fitted() -> None:
         assert answer.load_ratio - contact.load_ratio == approx(off[k, 2], rel=1e-9, abs=1e-12)
         own = [math.exp(total(weights, place.scaled)) for weights in chart().own]
         assert half_widths_of(chart(), place, STATED) == approx(tuple(np.hypot(alone[k], own)), rel=1e-9)
+
+
+def test_a_knot_tells_what_all_blocks_share_of_its_errors_from_the_scatter_of_its_own(monkeypatch) -> None:
+    scene = scene_of()
+    case = Case.bind(scene.at_level("deterministic"), scene.operation.point)
+    out = changed(Outputs(), friction_force=-10.0, h_c=1e-7, contact_load_ratio=0.5)
+    state = changed(initial_state(scene), outputs=out)
+    error = Error(grid=3.0, iteration=4.0, inlet=12.0, sampling=2.0, time=5.0)
+    found = {"friction_force": error, "h_c": error.scaled(1e-8), "contact_load_ratio": error.scaled(0.01)}
+    monkeypatch.setattr("contact_core.deterministic.errors_of", lambda scene, state: found)
+    knot = _knot(case, knots(1)[0].means, state)
+    assert knot.shared == approx((1.3, 1.3, 0.13))  # friction and film relative, W_c absolute
+    assert knot.scatter == approx((0.2, 0.2, 0.02))
 
 
 def test_the_variance_is_that_of_least_squares_by_its_textbook_formula() -> None:

@@ -8,7 +8,18 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import HARD, approx
 
-from contact_core import OperatingPointError, Scene, advance, initial_state, march, parted, run_cycle
+from contact_core import (
+    OperatingPointError,
+    Outputs,
+    RangeFlag,
+    Scene,
+    advance,
+    initial_state,
+    march,
+    parted,
+    run_cycle,
+)
+from contact_core.deterministic.changing_inputs import _with_earlier_unconverged
 from contact_core.state import ContactState
 from contact_core.surfaces.patches import patch_nodes
 
@@ -187,6 +198,18 @@ def test_its_steps_compose_and_go_back_bit_for_bit():
     assert now.settling > 0.0
     twice = [advance(scene, op, each, 1e-5)[0].to_bytes() for each in (now, stored)]
     assert twice[0] == twice[1]
+
+
+def test_instants_that_have_not_converged_fade_by_half_with_each_that_has():
+    told = [Outputs(unconverged=1.0), *[Outputs()] * 4]
+    shares, flags, before = [], [], 0.0
+    for outputs in told:
+        after = _with_earlier_unconverged(outputs, before)
+        before = after.unconverged
+        shares.append(before)
+        flags.append(bool(after.range_flags & RangeFlag.NOT_CONVERGED))
+    assert shares == [0.5, 0.25, 0.125, 0.0625, 0.03125]
+    assert flags == [True, True, True, False, False]  # above a tenth
 
 
 def test_no_time_changes_nothing_while_the_film_follows():

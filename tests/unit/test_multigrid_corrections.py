@@ -4,7 +4,7 @@ import numpy as np
 from comparison import approx
 
 from contact_core.kernels.multigrid.blended import blend
-from contact_core.kernels.multigrid.transfer import add_interpolated
+from contact_core.kernels.multigrid.transfer import add_interpolated, interpolate_cubic
 
 THICKENING = 1.3  # fluidity exp(-THICKENING p)
 
@@ -55,3 +55,12 @@ def test_a_steep_end_of_the_pressure_takes_its_part_of_a_correction_and_a_straig
         p = ending.copy()
         add_interpolated(new, old, p, steep)
         assert (p - ending)[:, 3] == approx(added, rel=1e-12)
+
+
+def test_half_of_a_symmetric_field_is_interpolated_as_the_whole():
+    whole = np.random.default_rng(2).uniform(size=(9, 7))
+    whole += whole[::-1]
+    fine, half = np.empty((17, 13)), np.empty((9, 13))
+    interpolate_cubic.py_func(whole, False, fine)
+    interpolate_cubic.py_func(np.ascontiguousarray(whole[:5]), True, half)
+    assert np.abs(half - fine[:9]).max() < 1e-15

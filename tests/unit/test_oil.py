@@ -7,11 +7,14 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import OperatingPointError, Scene, Transient, advance, initial_state, solve
+from contact_core import OperatingPointError, RangeFlag, Scene, Transient, advance, initial_state, solve
 from contact_core.deterministic import oil_temperature as oil_module
 from contact_core.deterministic.oil_temperature import inlet_factor
 from contact_core.kernels import moving_source, thinning
+from contact_core.regression.oil import MeanHeat
+from contact_core.regression.smooth_film import smooth_film
 from contact_core.scene import Case
+from contact_core.state import flags_of_tribofilm
 
 SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none", "film.tolerance": "1e-4"}
 FIELD = {"heat.model": "field"}
@@ -146,6 +149,25 @@ def test_shear_heat_in_the_inlet_thins_the_film_by_its_factor(flow):
     assert central(hot, state, op) / central(cold, state, op) == approx(factor, rel=0.02)
 
 
+@pytest.mark.parametrize(("speed", "ratio"), [(6.0, 1.0), (0.5, 1.5), (-6.0, 0.2)])
+def test_the_regression_level_has_the_same_factor(speed, ratio):
+    cold, _ = smooth({"lubricant.conductivity": "0.05 W/(m K)"})
+    hot, _ = smooth({"lubricant.conductivity": "0.05 W/(m K)"}, {"heat.inlet_shear": "gupta"})
+    op = sliding(cold, speed, ratio)
+    films = [smooth_film(Case(scene.at_level("regression"), op), 1e-6).film for scene in (cold, hot)]
+    assert films[1] / films[0] == approx(inlet_factor(Case(hot, op)), rel=1e-3)
+
+
+def test_equal_bodies_of_different_temperature_meet_halfway_and_share_the_power():
+    """The surfaces are as far above the bodies' mean as half of the power warms one of them."""
+    conductance, area, power, bodies = 2e5, 1e-8, 0.4, (350.0, 310.0)
+    column = [np.array([value]) for value in (conductance, conductance, *bodies, area, 1e-7)]
+    heat = MeanHeat(*column, 2.0 * conductance)
+    rise, into_1 = heat.surface(power)
+    assert rise == approx(0.5 * power / (conductance * area))
+    assert into_1 - (power - into_1) == approx(conductance * area * (bodies[1] - bodies[0]))
+
+
 def test_bodies_as_inputs_warm_the_oil_that_they_draw_in():
     scene, state, point = cheap(CHEAP | {"heat.bulk": "inputs", "tribofilm.model": "none"})
     warm = replace(point, body_temperature_1=point.temperature + 30.0, body_temperature_2=point.temperature + 10.0)
@@ -225,6 +247,10 @@ def test_the_tribofilms_constants_are_asked_for_the_temperature_that_it_feels():
         advance(scene, hot, state, 0.0)
     bodies = {"body_temperature_1": point.temperature, "body_temperature_2": point.temperature}
     advance(scene, replace(point, temperature=point.temperature + 40.0, **bodies), state, 0.0)
+    law, warm = scene.tribofilm, point.temperature
+    assert not flags_of_tribofilm(law, (warm, warm)) & RangeFlag.TRIBOFILM_TEMPERATURE
+    for pair in ((warm, warm + 40.0), (warm + 40.0, warm)):  # one body is enough
+        assert RangeFlag.TRIBOFILM_TEMPERATURE in flags_of_tribofilm(law, pair)
 
 
 def test_the_order_of_changes_does_not_matter():
@@ -237,6 +263,9 @@ def test_the_order_of_changes_does_not_matter():
     scene = Scene.from_toml("mtm_zddp", changes)
     assert scene == Scene.from_toml("mtm_zddp", dict(reversed(changes.items())))
     assert (scene.lubricant.flow, scene.tribofilm.edge_weight) == ("local", 20.0)
+    chosen = {"tribofilm.model": "none", "tribofilm.set": "gosvami"}  # a model is chosen of what a set says
+    for pair in (chosen, dict(reversed(chosen.items()))):
+        assert Scene.from_toml("mtm_zddp", pair).tribofilm.name == "none"
 
 
 def test_a_short_form_is_a_model_in_any_order():

@@ -103,6 +103,12 @@ def test_an_oxide_bears_its_own_friction_between_bare_and_covered_solids(level):
     assert low < open_ones < bare
 
 
+def test_an_oxide_rubs_where_no_tribofilm_lies():
+    bare, closed = LAW.friction + 0.05, np.array([0.0, 0.4, 1.0])
+    assert LAW.added_friction(bare, 1.0, closed) == approx(-0.05 * np.array([1.0, 0.6, 0.0]))
+    assert LAW.added_friction(bare, 0.5, 0.0) == approx(-0.025)
+
+
 def test_friction_under_a_closed_oxide_is_that_of_solids_with_its_coefficient():
     scene, state, op = cheap(DRY | BARE | ON | {"oxide.friction": "0.07"})
     bodies = tuple(replace(body, oxide=np.full_like(body.oxide, 5e-9)) for body in state.bodies)

@@ -32,6 +32,11 @@ def test_no_shipped_scene_is_doubted(name):
             {"operation.load": "0.1 N", "operation.speed_1": "90 m/s", "operation.speed_2": "90 m/s"},
             ["operation: the film of smooth bodies would be", "thick in a contact only", "in the right units?"],
         ),
+        (  # thicker than an ellipse is long, thinner than it is wide
+            {"operation.load": "0.1 N", "geometry.radius_y": "0.1 m", "film.width": "3 mm"}
+            | {f"operation.speed_{i}": "3 m/s" for i in (1, 2)},
+            ["would be 6.3e-05 m thick in a contact only 2.4e-05 m long"],
+        ),
     ],
 )
 def test_a_likely_mistake_is_doubted_with_the_way_out(changes, said):

@@ -114,6 +114,16 @@ def test_a_domain_smaller_than_the_contact_is_refused_with_the_size_it_needs():
 
 def test_the_largest_load_of_the_duty_must_fit_too():
     assert "at 5000 N" in refusal(operation__largest_load="5 kN")
+    table = read_table("mtm_zddp")
+    table["operation"]["steps"] = [{"time": "1 s", "load": "10 N"}, {"time": "2 s", "load": "5 kN"}]
+    with pytest.raises(SceneError, match="at 5000 N"):
+        Scene.from_dict(table)
+
+
+@pytest.mark.parametrize("body", [1, 2])
+def test_a_track_shorter_than_the_grid_is_refused_of_either_body(body):
+    sentence = refusal(**{f"geometry__track_length_{body}": "0.4 mm"})
+    assert f"geometry.track_length_{body} = 0.0004 m is shorter than film.domain = 0.0005 m" in sentence
 
 
 def test_an_unknown_model_is_refused_with_the_choices():

@@ -161,6 +161,11 @@ def test_the_assumed_pressure_coefficient_is_that_of_mineral_oils_to_a_third(nam
     assert pressure_coefficient(at_rest / 860.0) == approx(measured, rel=0.35)
 
 
+@pytest.mark.parametrize(("kinematic", "coefficient"), [(1.0, 0.9904e-8), (46.0, 1.686e-8), (1000.0, 2.587e-8)])
+def test_the_assumed_pressure_coefficient_is_that_of_gold_and_others_by_hand(kinematic, coefficient):
+    assert pressure_coefficient(1e-6 * kinematic) == approx(coefficient, rel=1e-3)
+
+
 @pytest.mark.parametrize(("at", "kinematic"), [("40 degC", 46e-6), ("100 degC", 6.8e-6)])
 def test_the_pressure_coefficient_of_a_data_sheet_is_that_of_its_temperature(ball, at, kinematic):
     oil = Scene.from_toml(ball, {"lubricant.viscosity.reference_temperature": at}).lubricant.viscosity

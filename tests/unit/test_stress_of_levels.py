@@ -8,15 +8,18 @@ import pytest
 from comparison import approx
 
 from contact_core import ContactState, Outputs, Scene, advance, initial_state
+from contact_core.kernels.stress_measures import von_mises
+from contact_core.laws.stress import share_down_to
 from contact_core.reference.stresses import line_stress
 from contact_core.regression import fatigue, stress
 from contact_core.regression.contact import evaluate
-from contact_core.regression.near_surface import CURVES
+from contact_core.regression.near_surface import CURVES, meetings
 from contact_core.regression.smooth_cycles import smooth_cycles
 from contact_core.regression.surfaces import tribofilms_of
 from contact_core.scene import Case
 from contact_core.state import Classes, changed
 from contact_core.state.classes import WEIGHTS, unharmed_classes
+from contact_core.surfaces.patches import bare_heights
 from contact_core.surfaces.track_means import folded, means_of
 
 FAST = {"film.model": "regression", "stress.model": "half_space"}
@@ -64,6 +67,21 @@ def test_smooth_cycles_of_a_line_are_those_of_its_closed_form() -> None:
             assert shear[k, 0] <= root_j2.max()
 
 
+def test_residual_stress_below_a_line_adds_to_its_von_mises_stress() -> None:
+    depths, x, residual = np.array([0.1, 0.3, 0.7, 1.5]), np.linspace(-3.0, 3.0, 6001), 0.4
+    _, peak = smooth_cycles(None, 0.2, residual).at(0.0, np.zeros(1), depths)
+    along = residual * np.array([1.0, 1.0, 0.0, 0.0, 0.0, 0.0])[:, None]
+    exact = [von_mises(line_stress(x, np.full_like(x, depth), 1.0, 1.0, 0.3) + along).max() for depth in depths]
+    assert peak == approx(exact, rel=0.01)
+
+
+def test_of_an_even_risk_the_share_down_to_a_depth_is_that_depth_over_the_deepest() -> None:
+    """At the faces, halfway between the layers; nothing is known below the last one."""
+    depths, even = np.array([1.0, 3.0, 4.0, 8.0]), np.ones(4)
+    shares = [share_down_to(depth, even, depths) for depth in (0.5, 2.0, 3.5, 6.0, 8.0)]
+    assert shares == approx([0.0, 2.0 / 8.0, 3.5 / 8.0, 6.0 / 8.0, 1.0])
+
+
 def test_smooth_bodies_have_the_stress_of_hertz_and_scale_with_his_pressure() -> None:
     """The largest von Mises stress of a line is .557 p_H deep below it; a film's friction changes next to nothing."""
     scene = line(SMOOTH, stress__layers="24")
@@ -77,6 +95,13 @@ def test_smooth_bodies_have_the_stress_of_hertz_and_scale_with_his_pressure() ->
     deeper = 2.0 * scene.depths[4:]  # as deep in half widths
     at = np.interp(deeper, deep.depths, stressed(deep).cycles.shear[0, :, 0, 0])
     assert at == approx(2.0 * shear[0, 4:, 0, 0], rel=0.03)
+
+
+def test_a_body_meets_the_roughness_of_the_other_by_what_slides_past_a_point_on_its_way() -> None:
+    """The way 2 a of 10 lengths takes 2 a / u, in which u_s 2 a / u of the other body pass: 10 u_s / u lengths."""
+    assert meetings((0.5, 0.3), 10.0, (0.0, 1.0)) == approx([10.0 * 0.2 / 0.5, 0.0])  # all roughness is body 2's
+    assert meetings((0.5, 0.3), 10.0, (1.0, 0.0)) == approx([0.0, 10.0 * 0.2 / 0.3])
+    assert not meetings((0.4, 0.4), 10.0, (0.5, 0.5)).any()  # in rolling the same asperities stay together
 
 
 def test_fainter_roughness_ends_at_the_smooth_bodies() -> None:
@@ -232,8 +257,13 @@ def test_the_change_of_level_keeps_damage_and_pits() -> None:
 def test_damage_of_a_new_contact_comes_to_the_patches_by_height() -> None:
     """A run that begins at the regression level has no field below: the highest points are taken as the most loaded."""
     scene = line(BASQUIN, COARSE, NO_WEAR)
-    state, _ = run(scene, 1, 60.0)
+    state, outputs = run(scene, 1, 60.0)
     after = folded(scene, state)
     assert after.below is not None
+    worst = [damage.reshape(scene.depths.size, -1).max(axis=0) for damage in after.below.damage]
+    for heights, each in zip(bare_heights(scene, scene.rows), worst, strict=True):
+        assert np.all(np.diff(each[np.argsort(heights, axis=None)]) >= 0.0)
+    # the error of what the curves have added stays with it
+    assert after.below.late == approx([outputs.error_damage * each.mean() for each in worst], rel=1e-9)
     assert isinstance(state.classes, Classes)
     assert after.below.damage_1.max() == approx(min(state.classes.damage_1.max(), 1.0), rel=1e-9)

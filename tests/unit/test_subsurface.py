@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from comparison import approx
 
+from contact_core.film.shared import subsurface
 from contact_core.kernels.subsurface import Subsurface
 
 LIBRARIES = ("pyfftw", "scipy")
@@ -173,3 +174,17 @@ def test_a_horizontal_plane_bears_the_load(periodic, load, component, depth, bey
     given[load][middle] = np.abs(tractions(6, 10)[load])
     found = Subsurface((ny, nx), 1.0, np.array([depth]), 0.3, "scipy", periodic=periodic).stress(*given)[:, 0]
     assert -found[component].sum() == approx(given.sum(), rel=beyond)
+
+
+def test_stresses_that_are_kept_for_a_grid_are_not_those_of_another():
+    """Each of shape, spacing, depths and Poisson's ratio counts, and whether the rows repeat."""
+    base = {"shape": (8, 8), "spacing": 1e-6, "depths": (1e-6, 2e-6), "poisson": 0.3, "periodic": False}
+    others = ({}, {"shape": (8, 10)}, {"spacing": 2e-6}, {"depths": (1e-6, 3e-6)}, {"poisson": 0.2}, {"periodic": True})
+    for change in others:
+        given = base | change
+        shape, spacing, depths, poisson, periodic = given.values()
+        pressure = np.random.default_rng(3).uniform(size=shape)
+        kept = subsurface(shape, spacing, depths, poisson, "scipy", periodic=periodic)
+        fresh = Subsurface(shape, spacing, np.array(depths), poisson, "scipy", periodic=periodic)
+        assert np.array_equal(kept.stress(pressure), fresh.stress(pressure)), change
+        assert subsurface(shape, spacing, depths, poisson, "scipy", periodic=periodic) is kept

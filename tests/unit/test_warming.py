@@ -11,6 +11,7 @@ import pytest
 from contact_core import ConvergenceError, Scene, advance, initial_state, warm_up
 
 SMALL = {"film.points": "33", "surface_1.correlation_length": "16 um", "surface_2.correlation_length": "16 um"}
+ROLLING = {"operation.speed_1": "0.45 m/s", "operation.speed_2": "0.45 m/s"}
 AT_REST = {"operation.speed_1": "0 m/s", "operation.speed_2": "0 m/s"}
 
 _PROCESS = """
@@ -58,7 +59,7 @@ def _run(name: str, **changes: str) -> tuple[list[int], list[str], list[str], li
     [
         ("mtm_zddp", {}),
         ("mtm_zddp", AT_REST),
-        ("mtm_zddp", {"heat": "field", "lubricant.flow": "local", "film.fft": "scipy"}),
+        ("mtm_zddp", ROLLING | {"heat": "field", "lubricant.flow": "local", "film.fft": "scipy"}),
         ("azam_case_a", {"surface_1.rq": "1 nm", "surface_2.rq": "1 nm"}),
     ],
 )
