@@ -14,6 +14,7 @@ The exit code is 1 if a fault was not noticed, 2 if the list does not fit the co
 
 import argparse
 import concurrent.futures
+import functools
 import hashlib
 import json
 import os
@@ -64,31 +65,40 @@ class Fault:
 
 
 def listed() -> list[Fault]:
-    """Return all faults; end with 2 if one does not fit the code."""
-    faults, wrong = [], []
-    for path in sorted(LISTS.glob("*.toml")):
-        for row in tomllib.loads(path.read_text(encoding="utf-8"))["fault"]:
-            changes = tuple((part["file"], part["old"], part["new"]) for part in row.get("changes", [row]))
-            tests, harmless = tuple(row.get("tests", ())), row.get("harmless", "")
-            fault = Fault(path.stem, row["name"], changes, tests, harmless, row.get("unnoticed", False))
-            faults.append(fault)
-            if bool(tests) == bool(harmless):
-                wrong.append(f"{fault.name}: needs either tests or a reason why it is harmless")
-            for file, old, new in changes:
-                count = (ROOT / file).read_text(encoding="utf-8").count(old) if (ROOT / file).exists() else 0
-                if count != 1 or old == new:
-                    wrong.append(f"{fault.name}: its text occurs {count} times in {file}, or nothing changes")
-            for test in tests:
-                path_of_test, _, function = test.partition("::")
-                text = (ROOT / path_of_test).read_text(encoding="utf-8") if (ROOT / path_of_test).exists() else ""
-                if function and f"def {function.partition('[')[0]}(" not in text:
-                    wrong.append(f"{fault.name}: there is no test {test}")
+    """Return all faults."""
+    rows = [
+        (path, row) for path in sorted(LISTS.glob("*.toml")) for row in tomllib.loads(path.read_text("utf-8"))["fault"]
+    ]
+    return [
+        Fault(
+            path.stem,
+            row["name"],
+            tuple((part["file"], part["old"], part["new"]) for part in row.get("changes", [row])),
+            tuple(row.get("tests", ())),
+            row.get("harmless", ""),
+            row.get("unnoticed", False),
+        )
+        for path, row in rows
+    ]
+
+
+def misfits(faults: list[Fault]) -> list[str]:
+    """Return what is wrong with a list of faults: each line of code is there once, and each test is there."""
     names = [fault.name for fault in faults]
-    wrong += [f"{name}: twice" for name in sorted({name for name in names if names.count(name) > 1})]
-    if wrong:
-        print(*wrong, sep="\n", file=sys.stderr)
-        sys.exit(2)
-    return faults
+    wrong = [f"{name}: twice" for name in sorted({name for name in names if names.count(name) > 1})]
+    text = functools.cache(lambda file: (ROOT / file).read_text("utf-8") if (ROOT / file).exists() else "")
+    for fault in faults:
+        if bool(fault.tests) == bool(fault.harmless):
+            wrong.append(f"{fault.name}: needs either tests or a reason why it is harmless")
+        for file, old, new in fault.changes:
+            if text(file).count(old) != 1 or old == new:
+                count = text(file).count(old)
+                wrong.append(f"{fault.name}: its text occurs {count} times in {file}, or nothing changes")
+        for test in fault.tests:
+            path, _, function = test.partition("::")
+            if f"def {function.partition('[')[0]}" not in text(path):
+                wrong.append(f"{fault.name}: there is no test {test}")
+    return wrong
 
 
 class Copy:
@@ -269,6 +279,9 @@ def main() -> int:
     parser.add_argument("--jobs", type=int, default=2, help="copies that are tried at the same time")
     given = parser.parse_args()
     every = listed()
+    if wrong := misfits(every):
+        print(*wrong, sep="\n", file=sys.stderr)
+        return 2
     faults = [
         one for one in every if not given.names or any(part in f"{one.group}: {one.name}" for part in given.names)
     ]
