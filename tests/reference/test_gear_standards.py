@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from contact_core.reference import hertz_line
 from system_models.machines.gear_pair import micropitting, scuffing
 from system_models.machines.gear_pair.geometry import FZG_A, FZG_C, FZG_STAGES
 from system_models.machines.gear_pair.rating import Rating
+from system_models.machines.gear_pair.safety import Safeties
 from system_models.machines.gear_pair.sharing import Sharing
 from system_models.machines.gear_pair.textbook import blok_line, schlenk
 from system_models.machines.gear_pair.working import Working
@@ -255,3 +257,16 @@ def test_relief_of_the_tips_counts_by_the_larger_contact_ratio(first, second):
     """X_Ca = 1 + 0.24 e + 0.71 e^2 with C_a = C_eff: 2.1231 for 1.1, 1.95 for 1; without relief 1.0902 and 1.08."""
     sharp, eased = (scuffing.tip_flash(with_contact_ratios(first, second, each)) for each in (False, True))
     assert sharp / eased == approx({1.1: 2.1231 / 1.0902, 1.0: 1.95 / 1.08}[max(first, second)])
+
+
+def test_load_stages_before_the_failing_one_have_thicker_films():
+    """One stage before that at which an oil fails is the stage at which a weaker one does."""
+    working = type_a(5, rating=Rating(micropitting_stage=8))
+    weaker = type_a(5, rating=Rating(micropitting_stage=7))
+    assert micropitting.limit(working, 1) == micropitting.limit(weaker) > micropitting.limit(working)
+
+
+def test_gears_of_a_worse_material_need_thicker_films_for_the_same_class():
+    """W_W times the geometric mean of the ratios at which the oil still passes and fails."""
+    assembly = SimpleNamespace(reported={"rating": Rating(material_factor=1.5)})
+    assert Safeties(SimpleNamespace(assembly=assembly))._needed(0.2 * 0.8) == approx(1.5 * 0.4)
