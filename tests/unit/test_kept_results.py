@@ -1,4 +1,4 @@
-"""A result on disk has all rows, and that of another scene is not replaced without force."""
+"""A result on disk: all rows, the exit code of its run, and no replacement by that of another scene without force."""
 
 import csv
 from pathlib import Path
@@ -8,6 +8,7 @@ import xarray as xr
 
 from contact_core.errors import ContactError
 from system_models.cli.overwriting import ask_before
+from system_models.cli.simulation import EXIT_CODE, _finished
 from system_models.store.results import write, write_csv
 
 
@@ -33,3 +34,11 @@ def test_the_result_of_another_scene_is_replaced_by_force_alone(
     assert "a result of 'mine', will be replaced" in capsys.readouterr().err
     ask_before(tmp_path, {"scene": "mine"}, force=False)
     assert not capsys.readouterr().err
+
+
+@pytest.mark.parametrize("code", [0, 1])
+def test_a_finished_run_ends_again_as_it_ended(code: int, tmp_path: Path) -> None:
+    """`--resume` of a run whose steps have not converged does not call it right."""
+    write(result("mine").assign_attrs({EXIT_CODE: code}), tmp_path)
+    assert _finished(tmp_path, {"scene": "mine"}) == code
+    assert _finished(tmp_path, {"scene": "other"}) is None
