@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from contact_core.reference import hertz_line
 from system_models.machines.gear_pair import micropitting, scuffing
 from system_models.machines.gear_pair.geometry import FZG_A, FZG_C, FZG_STAGES
 from system_models.machines.gear_pair.rating import Rating
+from system_models.machines.gear_pair.safety import Safeties
 from system_models.machines.gear_pair.sharing import Sharing
 from system_models.machines.gear_pair.textbook import blok_line, schlenk
 from system_models.machines.gear_pair.working import Working
@@ -215,3 +217,56 @@ def test_contacts_no_hotter_than_the_oil_are_safe():
 @pytest.mark.parametrize(("first", "second"), [(1.3, 0.9), (0.4, 0.4), (1.4, -0.1)])
 def test_contact_ratios_that_the_integral_method_is_not_for_have_none(first, second):
     assert scuffing.contact_ratio_factor(first, second) is None
+
+
+def test_teeth_approach_with_the_relief_of_the_wheels_tip():
+    """Before C the wheel's tip meets the pinion's root, whatever the relief of the pinion's tip."""
+    working = type_a(9)
+    best = scuffing.best_relief(working)
+    on_pinion = replace(working, sharing=Sharing("elastic", relief_1=best, relief_length_1=3e-3))
+    on_wheel = replace(working, sharing=Sharing("elastic", relief_2=best, relief_length_2=3e-3))
+    np.testing.assert_allclose(scuffing.approach_factor(on_pinion), scuffing.approach_factor(working), rtol=1e-12)
+    assert scuffing.approach_factor(on_wheel) == approx(1.0)
+
+
+def with_contact_ratios(first: float, second: float, eased: bool = False) -> Working:
+    """Gears as of type C but for the tips, which give these contact ratios after and before C; relieved by C_eff."""
+    pair = FZG_C
+    after = pair.pitch_point + first * pair.base_pitch
+    before = pair.line_length - pair.pitch_point + second * pair.base_pitch
+    tips = {
+        "tip_diameter_1": 2.0 * math.hypot(pair.base_radius_1, after),
+        "tip_diameter_2": 2.0 * math.hypot(pair.base_radius_2, before),
+    }
+    working = type_c(8, pair=replace(pair, **tips))
+    best = scuffing.best_relief(working)
+    return replace(working, sharing=Sharing("elastic", best, best, 3e-3, 3e-3)) if eased else working
+
+
+@pytest.mark.parametrize(
+    ("second", "entry", "tips"), [(0.25, 1.0, 1.035), (0.75, 1.0, 1.05625), (1.125, 0.8, 1.0928125), (1.5, 0.6, 1.135)]
+)
+def test_the_flash_at_the_tip_rises_with_the_contact_ratio_before_c(second, entry, tips):
+    """X_Q falls from 1 at 1.5 times the contact ratio after C to 0.6 at 3; X_Ca = 1 + 0.06 e + 0.02 e^2, larger e."""
+    found = scuffing.tip_flash(with_contact_ratios(0.5, second)) / scuffing.tip_flash(with_contact_ratios(0.5, 0.5))
+    assert found == approx(1.035 / (entry * tips))
+
+
+@pytest.mark.parametrize(("first", "second"), [(1.1, 0.25), (0.7, 1.0)])
+def test_relief_of_the_tips_counts_by_the_larger_contact_ratio(first, second):
+    """X_Ca = 1 + 0.24 e + 0.71 e^2 with C_a = C_eff: 2.1231 for 1.1, 1.95 for 1; without relief 1.0902 and 1.08."""
+    sharp, eased = (scuffing.tip_flash(with_contact_ratios(first, second, each)) for each in (False, True))
+    assert sharp / eased == approx({1.1: 2.1231 / 1.0902, 1.0: 1.95 / 1.08}[max(first, second)])
+
+
+def test_load_stages_before_the_failing_one_have_thicker_films():
+    """One stage before that at which an oil fails is the stage at which a weaker one does."""
+    working = type_a(5, rating=Rating(micropitting_stage=8))
+    weaker = type_a(5, rating=Rating(micropitting_stage=7))
+    assert micropitting.limit(working, 1) == micropitting.limit(weaker) > micropitting.limit(working)
+
+
+def test_gears_of_a_worse_material_need_thicker_films_for_the_same_class():
+    """W_W times the geometric mean of the ratios at which the oil still passes and fails."""
+    assembly = SimpleNamespace(reported={"rating": Rating(material_factor=1.5)})
+    assert Safeties(SimpleNamespace(assembly=assembly))._needed(0.2 * 0.8) == approx(1.5 * 0.4)

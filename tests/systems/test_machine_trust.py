@@ -2,13 +2,14 @@
 
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
 from comparison import approx
 
-from contact_core import RangeFlag
+from contact_core import RangeFlag, Scene
 from contact_core.reference import hertz_line
 from system_models.cli.main import main
 from system_models.html_report.opened import open_run
@@ -172,3 +173,14 @@ def test_the_command_tells_contacts_first_and_the_verdict_after(
     assert places == sorted(places)
     assert np.isfinite(number(out, r"friction to ([\d.]+) %"))
     assert "Surer: --set contact.film.model=auto." in out
+
+
+def test_a_scheduled_input_has_the_value_of_the_step_that_ends_at_a_row() -> None:
+    """A change at 2 s acts from then on: the row at 2 s is the end of a step before it."""
+    scene = Scene.from_toml("mtm_zddp")
+    assembly = SimpleNamespace(
+        contacts={"contact": SimpleNamespace(own_scene=scene)}, schedule={"contact.load": [(0.0, 10.0), (2.0, 30.0)]}
+    )
+    dataset = xr.Dataset({"contact.h_c": ("time", np.ones(4))}, {"time": [0.0, 1.0, 2.0, 3.0]})
+    found = trust.of_contact(assembly, dataset, "contact")  # type: ignore[arg-type]
+    assert found["load"].values.tolist() == [10.0, 10.0, 10.0, 30.0]

@@ -166,3 +166,15 @@ def test_the_table_of_contamination_falls_from_clean_to_dirty() -> None:
         ends = [each for row in rating.CONTAMINATION.values() for each in reversed(row[size])]
         assert ends[0] == 1.0 and ends[-1] == 0.0
         assert all(before >= after for before, after in pairwise(ends))
+
+
+def test_the_fatigue_load_limit_of_large_bearings_falls_behind_their_size() -> None:
+    """C_u grows as the square of alike bearings, from d_m = 100 mm on times (100 / d_m)^0.5: ISO 281, B.3."""
+    lengths = {"ball_diameter": BEARING_209.ball_diameter, "pitch_diameter": BEARING_209.pitch_diameter}
+    large, larger = (
+        bearing(**{name: size * pitch / BEARING_209.pitch_diameter for name, size in lengths.items()})
+        for pitch in (0.1, 0.4)
+    )
+    for limit in (rating.fatigue_load_limit, rating.simple_fatigue_load_limit):
+        assert limit(large) / limit(bearing()) == approx((0.1 / BEARING_209.pitch_diameter) ** 2)
+        assert limit(larger) / limit(large) == approx(16.0 * 0.5)

@@ -113,3 +113,13 @@ def test_a_spike_that_moves_with_the_body_is_seen_by_its_material_only() -> None
     assert int(found.argmax()) == marked - 1
     assert found[0] == approx(found[-1], rel=0.05)
     assert found[marked - 1] > 1.5 * found[0]
+
+
+def test_half_of_the_track_stands_for_both() -> None:
+    """The risk is that of the stress on the whole width, which is alike on both sides."""
+    h, step = INNER.hertz, INNER.spacing
+    x, y = (np.arange(-n, n + 1) * step for n in (18, int(h.b / step) + 2))
+    pressure = h.pressure_max * np.sqrt(np.maximum(1.0 - (x[None] / h.a) ** 2 - (y[:, None] / h.b) ** 2, 0.0))
+    below = Subsurface(pressure.shape, step, INNER.depths, 0.3, "scipy")
+    stress = np.stack([von_mises(layer).max(axis=-1) for layer in below.layers(pressure)])
+    assert INNER.risk() == approx(risk(stress, INNER.depths, step), rel=1e-9)

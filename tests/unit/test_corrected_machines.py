@@ -100,3 +100,12 @@ def test_the_loss_is_that_of_the_corrected_friction_and_is_told() -> None:
     assert len(told) == 3 + len(states)
     assert f"{machines.lost(assembly, both):.4g} J in place of {machines.lost(assembly, dataset):.4g} J" in told[-1]
     assert not list(machines.lines(assembly, dataset, better, states[:1]))
+
+
+@pytest.mark.parametrize("judged", [0, 1, 2])
+def test_no_state_is_judged_by_itself_wherever_it_stands(judged: int) -> None:
+    """Its own solution may be anything: the others say the same of it."""
+    states = [state(row) for row in (1, 3, 5)]
+    other = replace(states[judged].deep, friction_coefficient=2.0 * states[judged].deep.friction_coefficient)
+    changed = [replace(one, deep=other) if k == judged else one for k, one in enumerate(states)]
+    assert machines.without_itself(changed)[judged] == machines.without_itself(states)[judged]

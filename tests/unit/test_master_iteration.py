@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from system_models.numerics.control import scale, wrms
 from system_models.numerics.iteration import METHODS, Aitken, FixedPoint
 from system_models.numerics.quasi_newton import QuasiNewton, multi_secant
+from system_models.numerics.secant import Secant
 
 MOST = 200
 
@@ -267,3 +268,14 @@ def test_quasi_newton_turns_back_from_images_that_are_not_finite(size, wrong):
     v, count = solve(QuasiNewton(), image, np.full(size, 1.9))
     assert v == approx(np.full(size, 2.6 / 3.0))
     assert count < 20
+
+
+@pytest.mark.parametrize(("low", "high", "slope"), [(-1.0, 0.1, -1.0), (-0.01, 1.0, -10.0)])
+def test_the_slope_that_is_kept_is_that_towards_the_nearer_end(low, high, slope):
+    """Of a residual with a kink at its root, -v above and -10 v below."""
+    secant = Secant()
+    secant.start(1e-6)
+    secant.next(low, -10.0 * low)
+    secant.next(high, -high)
+    secant.accept(0.0, 0.0)
+    assert secant.slope == approx(slope)

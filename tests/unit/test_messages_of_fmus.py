@@ -1,0 +1,26 @@
+"""Messages of FMUs are logged by their status."""
+
+import logging
+
+import pytest
+
+from system_models.fmu.messages import pass_on
+
+
+@pytest.mark.parametrize(
+    ("status", "level"),
+    [(0, "INFO"), (1, "WARNING"), (2, "WARNING"), (3, "ERROR"), (4, "CRITICAL"), (5, "CRITICAL")],
+)
+def test_ok_warning_discard_error_and_fatal_have_their_levels(
+    status: int, level: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    with caplog.at_level(logging.DEBUG):
+        pass_on("contact", status, b"oil at 80 \xc2\xb0C \xff")
+    (record,) = caplog.records
+    assert (record.levelname, record.getMessage()) == (level, "contact: oil at 80 °C �")
+    assert (record.status, record.text) == (status, "oil at 80 °C �")  # type: ignore[attr-defined]
+
+
+def test_a_message_may_be_empty(caplog: pytest.LogCaptureFixture) -> None:
+    pass_on("contact", 3, None)
+    assert caplog.records[0].getMessage() == "contact: "

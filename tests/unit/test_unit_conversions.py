@@ -1,0 +1,53 @@
+"""Factors and offsets from the unit of one variable to that of another, by hand."""
+
+import pytest
+from comparison import approx
+from fmpy.model_description import BaseUnit, ModelDescription, ModelVariable, Unit
+
+from system_models.fmu.errors import CouplingError
+from system_models.master.unit_checks import conversion, power
+
+
+def of(unit: str | None, relative: bool = False) -> ModelVariable:
+    variable = ModelVariable("x", 1)
+    variable.unit, variable.relativeQuantity = unit, relative
+    return variable
+
+
+MODEL = ModelDescription()
+MODEL.unitDefinitions = [
+    Unit("degC", BaseUnit(K=1, offset=273.15)),
+    Unit("degF", BaseUnit(K=1, factor=1.0 / 1.8, offset=255.372222)),
+    Unit("odd", None),
+]
+
+
+def converted(source: ModelVariable, target: ModelVariable, value: float) -> float:
+    factor, offset = conversion(source, MODEL, target, MODEL)
+    return factor * value + offset
+
+
+def test_temperatures_are_converted_with_their_zero_and_differences_without() -> None:
+    assert converted(of("degC"), of("K"), 20.0) == approx(293.15)
+    assert converted(of("K"), of("degC"), 293.15) == approx(20.0)
+    assert converted(of("degC"), of("degF"), 100.0) == approx(212.0)
+    assert converted(of("degC", True), of("K", True), 20.0) == approx(20.0)
+    assert converted(of("degC", True), of("degF", True), 100.0) == approx(180.0)
+
+
+def test_units_are_known_by_name_where_an_fmu_does_not_define_them() -> None:
+    assert converted(of("mm"), of("m"), 5.0) == approx(5e-3)
+    assert converted(of("rad/s"), of("1/s"), 5.0) == approx(5.0)
+    assert converted(of(None), of("m"), 5.0) == 5.0
+
+
+@pytest.mark.parametrize(("source", "target", "said"), [("m", "N", "another quantity"), ("odd", "m", "does not say")])
+def test_what_cannot_be_converted_is_refused(source: str, target: str, said: str) -> None:
+    with pytest.raises(CouplingError, match=said):
+        conversion(of(source), MODEL, of(target), MODEL)
+
+
+def test_a_product_is_a_power_or_none() -> None:
+    assert power(of("kN"), MODEL, of("mm/s"), MODEL) == approx(1.0)
+    assert power(of("N m"), MODEL, of("rad/s"), MODEL) == approx(1.0)
+    assert power(of("N"), MODEL, of("N"), MODEL) is None
