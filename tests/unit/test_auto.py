@@ -7,6 +7,7 @@ import pytest
 from comparison import approx
 
 from contact_core import ContactState, OperatingPoint, Outputs, RangeFlag, Scene, advance, auto, initial_state
+from contact_core.amended import wear_error
 from contact_core.errors import ConvergenceError
 from contact_core.scene import Case
 
@@ -87,6 +88,31 @@ def test_a_block_corrects_the_place_and_narrows_its_errors(blocks: list[Operatin
     assert out.wear_rate_2 > quick.wear_rate_2
 
 
+def test_what_follows_from_friction_and_load_share_is_corrected_with_them(blocks: list[OperatingPoint]) -> None:
+    """Solids press as hard as before on another area; heat, and the rise of the hottest spot, follow friction."""
+    scene = scene_of()
+    op, bulk = scene.operation.point, max(Case.bind(scene, scene.operation.point).op.bodies)
+    out, quick = (advance(each, op, initial_state(each), 0.0)[1] for each in (scene, scene.at_level("regression")))
+    assert len(blocks) == 1
+    share, friction = (
+        getattr(out, name) / getattr(quick, name) for name in ("contact_load_ratio", "friction_coefficient")
+    )
+    assert share > 1.005 and friction > 1.02
+    assert out.contact_area_ratio / quick.contact_area_ratio == approx(share)
+    assert (out.contact_temperature_max - bulk) / (quick.contact_temperature_max - bulk) == approx(friction)
+    assert out.power_loss / quick.power_loss == approx(friction)
+
+
+@pytest.mark.parametrize("ratio", [0.2, 0.8])
+def test_wear_is_as_unsure_as_the_corrected_share_that_makes_it(ratio: float) -> None:
+    """Wear is in proportion to the load on the solids: at either end of what that may be it is covered, barely."""
+    raw, raw_error, error = 0.4, 0.2, 0.05
+    stated = wear_error(raw_error / raw, raw_error, raw, error, ratio)
+    for true in (ratio - error, ratio + error):
+        assert abs(true / ratio - 1.0) == approx(stated)
+    assert wear_error(0.1, raw_error, raw, 10.0 * raw_error, ratio) == 0.1
+
+
 def test_near_a_block_no_other_is_solved_and_far_from_it_one_is(blocks: list[OperatingPoint]) -> None:
     scene = scene_of(control__accuracy="1 %")  # which one block cannot give
     state, out = led(scene, 4)
@@ -99,12 +125,21 @@ def test_near_a_block_no_other_is_solved_and_far_from_it_one_is(blocks: list[Ope
     assert blocks[1].speed_1 == 4.1
 
 
-def test_a_block_that_fails_is_not_tried_again_and_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    "flag",
+    [None, RangeFlag.NOT_CONVERGED, RangeFlag.FALLBACK, RangeFlag.DOMAIN_EDGE],
+    ids=["raises", "no convergence", "fallback", "edge"],
+)
+def test_a_block_that_fails_is_not_tried_again_and_changes_nothing(
+    flag: RangeFlag | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
     tried = list[float]()
 
     def fails(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
         tried.append(dt)
-        raise ConvergenceError("none")
+        if flag is None:
+            raise ConvergenceError("none")
+        return state, Outputs(friction_coefficient=1.0, h_c=1e-6, contact_load_ratio=1.0, range_flags=int(flag))
 
     monkeypatch.setattr(auto.deterministic, "advance", fails)
     scene = scene_of()

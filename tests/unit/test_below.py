@@ -7,9 +7,11 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import ContactState, RangeFlag, SceneError, advance, initial_state
+from contact_core import ContactState, RangeFlag, Scene, SceneError, advance, initial_state
 from contact_core.deterministic import damage
-from contact_core.deterministic.subsurface import Traction, passed
+from contact_core.deterministic.subsurface import Pass, Traction, outputs_of_stress, passed
+from contact_core.kernels.load_cycle import Cycle
+from contact_core.reference.stresses import line_stress
 from contact_core.scene import Case
 from contact_core.surfaces.patches import heights_of, track_rows
 
@@ -74,7 +76,10 @@ def test_the_first_block_of_an_operating_point_is_a_whole_pass(driver):
 
 
 def test_a_point_under_a_fixed_pressure_sees_it_pass():
-    """Of a pressure that stands still over a moving body each column of the patch has the same history."""
+    """Of a pressure that stands still over a moving body each column of the patch has the same history.
+
+    Every other instant passes all of the body, too: each second column has one history, a little milder.
+    """
     scene, op, _ = run(STRESSED | SMOOTH)
     op = replace(op, speed_1=0.25, speed_2=0.25)
     state, _ = advance(scene, op, initial_state(scene), 0.0)
@@ -84,9 +89,85 @@ def test_a_point_under_a_fixed_pressure_sees_it_pass():
     found = passed(case, rows, [Traction(below.pressure[:rows], below.shear[:rows], (k, k)) for k in range(columns)])
     shear = found.cycles[0].shear
     assert np.ptp(shear, axis=2).max() < 1e-9 * shear.max()
+    fewer = found.halved[0].shear
+    assert np.ptp(fewer[:, :, ::2], axis=2).max() < 1e-9 * shear.max()
+    assert np.all(fewer <= shear * (1.0 + 1e-6)) and fewer.max() < shear.max()
+
+
+def test_each_body_is_stretched_behind_what_rubs_along_it():
+    """Closed form of a line: friction on body 2 is along +x, that on body 1 against it, and a cycle keeps tension."""
+    flank = {"film.model": "deterministic", "film.points": "129", "film.domain": "1 mm", "film.width": "62.5 um"}
+    scene = Scene.from_toml("fzg_flank", flank | {"stress.model": "half_space", "stress.layers": "6"})
+    case, rows, a, friction = Case.bind(scene, scene.operation.point), scene.rows, 0.2e-3, 0.3
+    x = scene.grid(rows).x
+    p = np.tile(1e9 * np.sqrt(np.maximum(1.0 - (x / a) ** 2, 0.0)), (rows, 1))
+    found = passed(case, rows, [Traction(p, friction * p, (0, 0))] * 2)
+    deep = scene.depths > 3.0 * scene.film.spacing
+    for sign, cycle in ((-1.0, found.cycles[0]), (1.0, found.cycles[1])):
+        exact = line_stress(x[:-1], scene.depths[deep, None], a, 1e9, 0.3, sign * friction)[:3].sum(axis=0) / 3.0
+        assert cycle.hydrostatic[deep, 0] == approx(np.maximum(exact, 0.0), abs=0.02 * exact.max())
+
+
+def test_the_scatter_of_a_pass_is_the_standard_error_of_the_mean_of_its_instants():
+    """Of tractions 10 % above and below their mean: it falls with the root of their number."""
+    _, state, case = pressed()
+    p = state.below.pressure[: state.rows]
+    for instants in (4, 16):
+        tractions = [Traction(factor * p, 0.0 * p, (0, 0)) for factor in (0.9, 1.1)] * (instants // 2)
+        assert passed(case, state.rows, tractions).scatter == approx(0.1 / np.sqrt(instants), rel=1e-9)
+
+
+def test_the_share_near_the_surface_is_of_what_may_fail_in_either_body():
+    scene, state, case = pressed(stress__near_surface="0.4")
+    shape = scene.depths.size, state.rows, scene.film.points - 1
+    top, bottom = (np.zeros(shape) for _ in range(2))
+    top[0], bottom[-1] = 1.1e9, 1.0e9
+
+    def share(*shears):
+        cycles = tuple(Cycle(shear, 0.0 * shear, 0.0 * shear) for shear in shears)
+        return outputs_of_stress(case, state.rows, Pass(cycles, cycles, scene.depths, 0.0))["near_surface_share"]
+
+    assert (share(top, top), share(bottom, bottom)) == (1.0, 0.0)
+    assert 0.01 < share(top, bottom) == share(bottom, top) < 0.99
+    assert share(top + bottom, 0.0 * top) == share(top, bottom)
+
+
+def pressed(changes=TIRED, **more):
+    """A scene with its first pass, and its case."""
+    scene, state, op = cheap(changes, **more)
+    return scene, advance(scene, op, state, 0.0)[0], Case.bind(scene, op)
+
+
+def test_few_instants_miss_what_half_of_them_find_less():
+    """The rate of damage of a pass less that of a pass of every other of its instants."""
+    _, state, case = pressed()
+    below, rows = state.below, state.rows
+    fields = zip(np.split(below.pressure, 8), np.split(below.shear, 8), below.places.astype(int).tolist(), strict=True)
+    tractions = [Traction(p, q, tuple(places)) for p, q, places in fields]
+    half = damage.with_cycles(case, below, passed(case, rows, tractions[::2]))
+    assert below.short == approx(below.rate - half.rate, rel=1e-9)
+    assert np.all(below.short > 0.02 * below.rate)
+
+
+def test_a_rate_that_is_held_while_it_rises_is_late_by_what_is_stated():
+    """Found anew every minute, a rate that rises steadily lags by half of each change, the last included."""
+    scene, state, case = pressed(TIRED | {"wear.model": "none"})
+    shape = scene.depths.size, state.rows, scene.film.points - 1
+    below, rates = replace(state.below, rate=np.zeros(2)), []
+    for rising in (1.0, 1.1, 1.2, 1.3, 1.4):
+        stress = 2e8 * rising ** (1.0 / scene.fatigue.life_exponent)
+        cycle = Cycle(*(np.full(shape, part) for part in (stress, 0.0, 0.0)))
+        below = damage.with_cycles(case, below, Pass((cycle, cycle), (cycle, cycle), scene.depths, 0.0))
+        rates.append(below.rate)
+        below, _ = damage.fatigued(case, replace(state, below=below), state.bodies, 60.0)
+    found = [damage.damage_of_track(scene, replace(state, below=below), i) for i in (0, 1)]
+    assert rates == approx(rates[0] * np.array([[1.0], [1.1], [1.2], [1.3], [1.4]]), rel=1e-9)
+    exact = rates[0] * 300.0 * 1.25
+    assert [below.errors(i)[0] for i in (0, 1)] == approx(exact - found, rel=1e-6)
 
 
 def test_damage_under_constant_cycles_is_their_number_times_that_of_one():
+    """And its error that of one pass times the time it is held, however that is cut."""
     changes = TIRED | {"wear.model": "none", "control.longest": "1e6 s", "tribofilm.model": "none"}
     scene, op, found = run(changes, 0.0, 3.0, 4.0, 5.0)
     first, last = found[0][0], found[-1][0]
@@ -96,6 +177,10 @@ def test_damage_under_constant_cycles_is_their_number_times_that_of_one():
     exact = damage.cycles_in(side, 12.0) * first.below.per_cycle_1
     assert last.below.damage_1 == approx(exact, rel=1e-14)
     assert last.outputs.load_cycles_1 == approx(damage.cycles_in(side, 12.0), rel=1e-14)
+    once = advance(scene, op, first, 12.0)[0].below
+    assert np.all(once.variance > 0.0)
+    for body in (0, 1):
+        assert last.below.errors(body) == approx(once.errors(body), rel=1e-12)
 
 
 def test_wear_takes_damage_away():

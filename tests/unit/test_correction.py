@@ -56,6 +56,19 @@ def test_a_knot_is_reproduced_within_the_error_that_is_left(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", OUTPUTS)
+def test_a_solution_tells_the_less_the_less_sure_it_is(name: str) -> None:
+    """One as unsure as the regression level takes half of the way, and leaves half of the variance; a wild one none."""
+    law, k = CORRELATIONS[name], OUTPUTS.index(name)
+    shared = 1.0 - law.nugget  # of two contacts in one place
+    for own, told_of in ((0.0, 1.0), (1.0, 0.5), (1e4, 0.0)):
+        given = Knots(np.array(["a"], object), np.array([HERE]), np.full((1, 3), 0.4), np.full((1, 3), own))
+        found = conditioned(given, given.pairs, given.places)
+        assert found.mean[0, k] == approx(0.4 * told_of * shared, abs=1e-6)
+        left = law.wider * (1.0 - told_of * shared**2) ** 0.5
+        assert found.left[0, k] == approx(min(left, 1.0), abs=1e-6)
+
+
+@pytest.mark.parametrize("name", OUTPUTS)
 def test_far_away_and_on_other_surfaces_the_regression_level_is_as_it_was(name: str) -> None:
     far = Place(*(np.array(HERE) + 1e3))
     found = told(knot(), far, "b")

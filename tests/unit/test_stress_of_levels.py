@@ -11,7 +11,7 @@ from contact_core import ContactState, Outputs, Scene, advance, initial_state
 from contact_core.reference.stresses import line_stress
 from contact_core.regression import fatigue, stress
 from contact_core.regression.contact import evaluate
-from contact_core.regression.near_surface import CURVES
+from contact_core.regression.near_surface import CURVES, HALF_WIDTH
 from contact_core.regression.smooth_cycles import smooth_cycles
 from contact_core.regression.surfaces import tribofilms_of
 from contact_core.scene import Case
@@ -21,6 +21,7 @@ from contact_core.surfaces.track_means import folded, means_of
 
 FAST = {"film.model": "regression", "stress.model": "half_space"}
 BASQUIN = {"fatigue.model": "basquin", "fatigue.reference_stress": "900 MPa", "fatigue.life_exponent": "8"}
+ENDLESS = {"fatigue.reference_stress": "100 GPa"}
 NO_WEAR = {"wear.bare": "0", "wear.film": "0"}
 SMOOTH = {f"surface_{i}.{name}": "0 m" for i in (1, 2) for name in ("rq", "microroughness.rms")}
 COARSE = {"film.points": "33", "film.domain": "0.8 mm", "film.width": "0.4 mm", "control.mixed_instants": "4"}
@@ -77,6 +78,31 @@ def test_smooth_bodies_have_the_stress_of_hertz_and_scale_with_his_pressure() ->
     deeper = 2.0 * scene.depths[4:]  # as deep in half widths
     at = np.interp(deeper, deep.depths, stressed(deep).cycles.shear[0, :, 0, 0])
     assert at == approx(2.0 * shear[0, 4:, 0, 0], rel=0.03)
+
+
+def test_a_residual_stress_adds_its_hydrostatic_part_to_every_cycle_and_nothing_to_its_shear() -> None:
+    """Along the surface in both directions: 2/3 of it, by superposition."""
+    none, pressed = (stressed(line(stress__residual=given)) for given in ("0 Pa", "300 MPa"))
+    torsion, bending = 361.4e6, 625.9e6
+    dang_van, crossland = 3.0 * (torsion / bending - 0.5), 3.0 * torsion / bending - 3.0**0.5
+    for part, weight in (("shear", 0.0), ("hydrostatic", 1.0), ("dang_van", dang_van)):
+        before, after = getattr(none.cycles, part), getattr(pressed.cycles, part)
+        assert after - before == approx(np.full_like(before, weight * 200e6), abs=1e-6 * 300e6)
+    for name, weight in (("dang_van_ratio", dang_van), ("crossland_ratio", crossland)):
+        assert pressed.outputs[name] - none.outputs[name] == approx(weight * 200e6 / torsion, rel=1e-6)
+
+
+def test_the_error_of_damage_is_that_of_stresses_off_by_their_half_width_and_wider_beyond_the_fit() -> None:
+    """Damage rises with the eighth power of the stress; of half the error the half width would be a third smaller."""
+    widths = []
+    for rq in ("200 nm", "2 um"):
+        scene = line(BASQUIN | ENDLESS, surface_1__rq=rq, surface_2__rq=rq)
+        case, means = Case.bind(scene, scene.operation.point), means_of(scene, initial_state(scene))
+        harm = fatigue.harm_by(case, evaluate(case, tribofilms_of(means)))
+        below = fatigue.outputs_below(case, Outputs(), harm, unharmed_classes(scene.depths.size, 1), means)
+        widths.append((1.0 + below["error_damage"]) ** (1.0 / 8.0) - 1.0)
+    assert widths[0] == approx(HALF_WIDTH, rel=1e-9)
+    assert widths[1] > 1.5 * HALF_WIDTH
 
 
 def test_fainter_roughness_ends_at_the_smooth_bodies() -> None:
