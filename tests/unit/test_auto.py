@@ -89,18 +89,23 @@ def test_a_block_corrects_the_place_and_narrows_its_errors(blocks: list[Operatin
 
 
 def test_what_follows_from_friction_and_load_share_is_corrected_with_them(blocks: list[OperatingPoint]) -> None:
-    """Solids press as hard as before on another area; heat, and the rise of the hottest spot, follow friction."""
-    scene = scene_of()
-    op, bulk = scene.operation.point, max(Case.bind(scene, scene.operation.point).op.bodies)
+    """Solids press as hard as before on another area; forces, heat and the hottest spot's rise follow friction."""
+    scene = scene_of(heat__bulk__model="inputs")
+    op = replace(scene.operation.point, spin=5.0, body_temperature_1=357.15, body_temperature_2=353.15)
     out, quick = (advance(each, op, initial_state(each), 0.0)[1] for each in (scene, scene.at_level("regression")))
     assert len(blocks) == 1
-    share, friction = (
-        getattr(out, name) / getattr(quick, name) for name in ("contact_load_ratio", "friction_coefficient")
-    )
-    assert share > 1.005 and friction > 1.02
-    assert out.contact_area_ratio / quick.contact_area_ratio == approx(share)
-    assert (out.contact_temperature_max - bulk) / (quick.contact_temperature_max - bulk) == approx(friction)
-    assert out.power_loss / quick.power_loss == approx(friction)
+
+    def ratio(name: str, beside: float = 0.0) -> float:
+        return (getattr(out, name) - beside) / (getattr(quick, name) - beside)
+
+    share, friction = ratio("contact_load_ratio"), ratio("friction_coefficient")
+    assert share > 1.005
+    assert friction > 1.02
+    assert ratio("contact_area_ratio") == approx(share)
+    assert ratio("contact_temperature_max", beside=357.15) == approx(friction)
+    forces = ("friction_solid", "friction_fluid", "spin_torque", "dfriction_dspeed_1", "dfriction_dload")
+    for name in (*forces, "power_loss", "heat_flow_1", "heat_flow_2"):
+        assert ratio(name) == approx(friction), name
 
 
 @pytest.mark.parametrize("ratio", [0.2, 0.8])

@@ -4,15 +4,19 @@ import numpy as np
 import pytest
 from comparison import approx
 
+from contact_core import Scene
 from contact_core.correction import (
     CORRECTED,
     CORRELATIONS,
     NO_KNOTS,
+    Conditioned,
     Knots,
     Place,
     conditioned,
     covariance,
     knots,
+    nearness,
+    pair_of,
     place,
 )
 
@@ -93,6 +97,42 @@ def test_what_is_not_known_tells_nothing() -> None:
     assert told(sure)["friction_coefficient"] > FAST["friction_coefficient"]
     unloaded = place(FAST | {"lambda_ratio": 1.0, "friction_force": 0.0, "friction_solid": 0.0}, 0.0, (1.0, 0.5), 0.0)
     assert told(knot(), unloaded) == told(NO_KNOTS)
+
+
+def test_a_corrected_contact_can_be() -> None:
+    """Friction and film are more than nothing, and the solids carry a part of the load, whatever the knots say."""
+    for mean in (-5.0, 5.0):
+        found = Conditioned(np.full((1, 3), mean), np.ones((1, 3))).of(FAST)
+        assert found["friction_coefficient"][0] > 0.0
+        assert found["h_c"][0] > 0.0
+        assert 0.0 <= found["contact_load_ratio"][0] <= 1.0
+
+
+def test_one_contact_has_one_place_whichever_way_it_runs_and_however_large_it_is() -> None:
+    oil = {"lambda_ratio": 0.5, "friction_force": 4.0, "friction_solid": 3.0}
+    here = np.array(place(FAST | oil, 100.0, (0.3, 0.2), 0.1))
+    for speeds in ((0.2, 0.3), (-0.3, -0.2), (3.0, 2.0)):
+        assert np.array(place(FAST | oil, 100.0, speeds, 0.1)) == approx(here, rel=1e-12)
+    larger = {"lambda_ratio": 0.5, "friction_force": -8.0, "friction_solid": -6.0}
+    assert np.array(place(FAST | larger, 200.0, (0.3, 0.2), 0.1)) == approx(here, rel=1e-12)
+    less = {"lambda_ratio": 0.5, "friction_force": 3.5, "friction_solid": 3.0, "contact_load_ratio": 0.7}
+    half = place(FAST | less, 100.0, (0.3, 0.2), 0.1)  # of the oil's friction and load
+    assert half.oil == approx(here[4], rel=1e-12)
+
+
+def test_places_a_length_apart_deviate_alike_by_a_normal_curve_s_deviation() -> None:
+    law, here = CORRELATIONS["h_c"], np.array([HERE])
+    steps = np.diag(law.lengths)
+    assert nearness(law, here, here + steps) == approx(np.exp(-0.5), rel=1e-12)
+    assert nearness(law, here, here + steps[:1] - steps[1:]) == approx(np.exp(-1.0), rel=1e-12)
+
+
+def test_a_pair_is_of_both_surfaces_and_of_nothing_else() -> None:
+    def pair(**changes: str) -> str:
+        return pair_of(Scene.from_toml("mtm_zddp", {name.replace("__", "."): value for name, value in changes.items()}))
+
+    assert pair(operation__load="20 N", film__points="65") == pair()
+    assert len({pair(), pair(surface_1__rq="30 nm"), pair(surface_2__rq="30 nm")}) == 3
 
 
 def test_half_widths_never_grow_with_more_knots() -> None:
