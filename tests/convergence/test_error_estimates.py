@@ -44,6 +44,15 @@ def test_nine_in_ten_errors_that_scatter_at_first_order_are_covered_by_one_diffe
     assert np.mean(np.array(ratios) <= 0.5) < 0.85
 
 
+def test_grids_that_agree_leave_what_the_stopping_rule_does():
+    alike = [
+        SimpleNamespace(spacing=h, values={"h_min": -2.0, "contact_area_ratio": 0.5}, area_by_chance=0.1)
+        for h in (2.0, 1.0)
+    ]
+    assert stated_errors(alike, 1e-3) == approx({"h_min": 2e-3, "contact_area_ratio": 0.1005})
+    assert stated_errors(alike[:1], 1e-3)["h_min"] == np.inf
+
+
 def point(number, nodes):
     random = np.random.Generator(np.random.Philox(100 + number))
     load, speed, rq = (10.0 ** random.uniform(*range_) for range_ in ((0.7, 2.0), (-2.0, 0.0), (-8.0, -6.4)))

@@ -108,6 +108,39 @@ def test_what_follows_from_friction_and_load_share_is_corrected_with_them(blocks
         assert ratio(name) == approx(friction), name
 
 
+def at_speed(scene: Scene, speed: float) -> OperatingPoint:
+    return replace(scene.operation.point, speed_1=1.025 * speed, speed_2=0.975 * speed)
+
+
+@pytest.mark.parametrize(
+    ("speed", "accuracy", "surer", "asking"),
+    [(0.01, 0.15, "error_friction", "error_film"), (10.0, 0.11, "error_film", "error_friction")],
+)
+def test_either_error_asks_for_a_block_by_itself_and_one_that_is_sure_then_raises_no_flag(
+    speed: float, accuracy: float, surer: str, asking: str, blocks: list[OperatingPoint]
+) -> None:
+    scene = scene_of(control__accuracy=f"{accuracy}")
+    quick, out = (
+        advance(each, at_speed(scene, speed), initial_state(each), 0.0)[1]
+        for each in (scene.at_level("regression"), scene)
+    )
+    assert getattr(quick, surer) < accuracy < getattr(quick, asking)
+    assert RangeFlag.UNSURE in RangeFlag(quick.range_flags)
+    assert len(blocks) == 1
+    assert max(out.error_friction, out.error_film, out.error_load_ratio) < accuracy
+    assert RangeFlag.UNSURE not in RangeFlag(out.range_flags)
+    assert out.error_wear < 0.7 * quick.error_wear  # as that of the share that makes it
+
+
+def test_a_scene_that_asks_for_no_accuracy_gets_ten_percent(blocks: list[OperatingPoint]) -> None:
+    scene = Scene.from_toml("mtm_zddp", {name: value for name, value in SMALL.items() if name != "control.accuracy"})
+    point = at_speed(scene, 10.0)
+    _, quick = advance(scene.at_level("regression"), point, initial_state(scene), 0.0)
+    assert 0.1 < max(quick.error_friction, quick.error_film) < 0.15
+    advance(scene, point, initial_state(scene), 0.0)
+    assert len(blocks) == 1
+
+
 @pytest.mark.parametrize("ratio", [0.2, 0.8])
 def test_wear_is_as_unsure_as_the_corrected_share_that_makes_it(ratio: float) -> None:
     """Wear is in proportion to the load on the solids: at either end of what that may be it is covered, barely."""
@@ -123,11 +156,9 @@ def test_near_a_block_no_other_is_solved_and_far_from_it_one_is(blocks: list[Ope
     state, out = led(scene, 4)
     assert len(blocks) == 1
     assert RangeFlag.UNSURE in RangeFlag(out.range_flags)
-    faster = replace(scene.operation.point, speed_1=4.1, speed_2=3.9)
-    for _ in range(2):
-        state, _ = advance(scene, faster, state, 1.0)
-    assert len(blocks) == 2
-    assert blocks[1].speed_1 == 4.1
+    for speed, solved in ((0.11, 1), (0.3, 2), (4.0, 3), (4.0, 3)):
+        state, _ = advance(scene, at_speed(scene, speed), state, 1.0)
+        assert len(blocks) == solved
 
 
 @pytest.mark.parametrize(
