@@ -92,11 +92,15 @@ def test_a_full_film_loses_an_archard_volume_with_its_own_coefficient_and_hardne
     assert Archard(1e-5, 1e-6).film_removal(1e8, (0.2, 0.25), 0, 2e9, FULL) == 0.0
 
 
-@pytest.mark.parametrize("speeds", [(0.3, 0.25), (0.05, 0.0)], ids=["both move", "one is at rest"])
-def test_tracks_of_the_regression_level_lose_archards_volume_of_film_for_the_force_on_their_solids(speeds):
-    """K W v / H with the hardness of a full film, whatever the tracks are long."""
+@pytest.mark.parametrize(
+    ("speeds", "part"),
+    [((0.3, 0.25), 1.0), ((0.05, 0.0), 1.0), ((0.3, 0.25), 0.3)],
+    ids=["both move", "one is at rest", "a part of the load"],
+)
+def test_tracks_of_the_regression_level_lose_archards_volume_of_film_for_the_force_on_their_solids(speeds, part):
+    """K W v / H with the hardness of a full film, however long and wide the tracks are."""
     scene, state, op = cheap(DRY | WORN)
-    scene, op = scene.at_level("regression"), replace(op, speed_1=speeds[0], speed_2=speeds[1])
+    scene, op = scene.at_level("regression"), replace(op, load=part * op.load, speed_1=speeds[0], speed_2=speeds[1])
     case = Case.bind(scene, op)
     contact = evaluate(case, tribofilms_of(means_of(scene, state)))
     force, sliding = contact.load_ratio * op.load, abs(speeds[0] - speeds[1])
