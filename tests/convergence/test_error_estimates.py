@@ -1,6 +1,7 @@
 """The half widths that the calls state, against the same contacts on grids of four and eight times the nodes."""
 
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from comparison import approx
 from contact_core.calls.dry_contact import dry_contact
 from contact_core.calls.line_contact import line_contact
 from contact_core.calls.point_contact import point_contact
+from contact_core.film.estimate import stated_errors
 from contact_core.reference import hertz_point
 
 MODULUS, RADIUS = 230.47e9, 10e-3
@@ -24,6 +26,31 @@ def surface(number, x, y, length):
     phase = random.uniform(0.0, 2.0 * np.pi, 60)
     along, across = np.exp(1j * (kx[:, None] * x + phase[:, None])), np.exp(1j * ky[:, None] * y)
     return np.sqrt(2.0 / 60) * (across.T @ along).real
+
+
+@pytest.mark.parametrize("grids", [2, 3])
+def test_nine_in_ten_errors_that_scatter_at_first_order_are_covered_by_one_difference_as_by_two(grids):
+    """Errors of either sign, in proportion to the spacing: one difference may be small by chance, two rarely are."""
+    draw = np.random.default_rng(1)
+    spacings = 2.0 ** -np.arange(grids)
+    ratios = []
+    for errors in spacings * draw.normal(size=(2000, grids)):
+        solved = [
+            SimpleNamespace(spacing=h, values={"h_min": 1.0 + e, "contact_area_ratio": 1.0}, area_by_chance=0.0)
+            for h, e in zip(spacings, errors, strict=True)
+        ]
+        ratios.append(abs(errors[-1]) / stated_errors(solved, 0.0)["h_min"])
+    assert np.mean(np.array(ratios) <= 1.0) > 0.89
+    assert np.mean(np.array(ratios) <= 0.5) < 0.85
+
+
+def test_grids_that_agree_leave_what_the_stopping_rule_does():
+    alike = [
+        SimpleNamespace(spacing=h, values={"h_min": -2.0, "contact_area_ratio": 0.5}, area_by_chance=0.1)
+        for h in (2.0, 1.0)
+    ]
+    assert stated_errors(alike, 1e-3) == approx({"h_min": 2e-3, "contact_area_ratio": 0.1005})
+    assert stated_errors(alike[:1], 1e-3)["h_min"] == np.inf
 
 
 def point(number, nodes):

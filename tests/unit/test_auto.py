@@ -7,6 +7,7 @@ import pytest
 from comparison import approx
 
 from contact_core import ContactState, OperatingPoint, Outputs, RangeFlag, Scene, advance, auto, initial_state
+from contact_core.amended import wear_error
 from contact_core.errors import ConvergenceError
 from contact_core.scene import Case
 
@@ -87,24 +88,94 @@ def test_a_block_corrects_the_place_and_narrows_its_errors(blocks: list[Operatin
     assert out.wear_rate_2 > quick.wear_rate_2
 
 
+def test_what_follows_from_friction_and_load_share_is_corrected_with_them(blocks: list[OperatingPoint]) -> None:
+    """Solids press as hard as before on another area; forces, heat and the hottest spot's rise follow friction."""
+    scene = scene_of(heat__bulk__model="inputs")
+    op = replace(scene.operation.point, spin=5.0, body_temperature_1=357.15, body_temperature_2=353.15)
+    out, quick = (advance(each, op, initial_state(each), 0.0)[1] for each in (scene, scene.at_level("regression")))
+    assert len(blocks) == 1
+
+    def ratio(name: str, beside: float = 0.0) -> float:
+        return (getattr(out, name) - beside) / (getattr(quick, name) - beside)
+
+    share, friction = ratio("contact_load_ratio"), ratio("friction_coefficient")
+    assert share > 1.005
+    assert friction > 1.02
+    assert ratio("contact_area_ratio") == approx(share)
+    assert ratio("contact_temperature_max", beside=357.15) == approx(friction)
+    forces = ("friction_solid", "friction_fluid", "spin_torque", "dfriction_dspeed_1", "dfriction_dload")
+    for name in (*forces, "power_loss", "heat_flow_1", "heat_flow_2"):
+        assert ratio(name) == approx(friction), name
+
+
+def at_speed(scene: Scene, speed: float) -> OperatingPoint:
+    return replace(scene.operation.point, speed_1=1.025 * speed, speed_2=0.975 * speed)
+
+
+@pytest.mark.parametrize(
+    ("speed", "accuracy", "surer", "asking"),
+    [(0.01, 0.15, "error_friction", "error_film"), (10.0, 0.11, "error_film", "error_friction")],
+)
+def test_either_error_asks_for_a_block_by_itself_and_one_that_is_sure_then_raises_no_flag(
+    speed: float, accuracy: float, surer: str, asking: str, blocks: list[OperatingPoint]
+) -> None:
+    scene = scene_of(control__accuracy=f"{accuracy}")
+    quick, out = (
+        advance(each, at_speed(scene, speed), initial_state(each), 0.0)[1]
+        for each in (scene.at_level("regression"), scene)
+    )
+    assert getattr(quick, surer) < accuracy < getattr(quick, asking)
+    assert RangeFlag.UNSURE in RangeFlag(quick.range_flags)
+    assert len(blocks) == 1
+    assert max(out.error_friction, out.error_film, out.error_load_ratio) < accuracy
+    assert RangeFlag.UNSURE not in RangeFlag(out.range_flags)
+    assert out.error_wear < 0.7 * quick.error_wear  # as that of the share that makes it
+
+
+def test_a_scene_that_asks_for_no_accuracy_gets_ten_percent(blocks: list[OperatingPoint]) -> None:
+    scene = Scene.from_toml("mtm_zddp", {name: value for name, value in SMALL.items() if name != "control.accuracy"})
+    point = at_speed(scene, 10.0)
+    _, quick = advance(scene.at_level("regression"), point, initial_state(scene), 0.0)
+    assert 0.1 < max(quick.error_friction, quick.error_film) < 0.15
+    advance(scene, point, initial_state(scene), 0.0)
+    assert len(blocks) == 1
+
+
+@pytest.mark.parametrize("ratio", [0.2, 0.8])
+def test_wear_is_as_unsure_as_the_corrected_share_that_makes_it(ratio: float) -> None:
+    """Wear is in proportion to the load on the solids: at either end of what that may be it is covered, barely."""
+    raw, raw_error, error = 0.4, 0.2, 0.05
+    stated = wear_error(raw_error / raw, raw_error, raw, error, ratio)
+    for true in (ratio - error, ratio + error):
+        assert abs(true / ratio - 1.0) == approx(stated)
+    assert wear_error(0.1, raw_error, raw, 10.0 * raw_error, ratio) == 0.1
+
+
 def test_near_a_block_no_other_is_solved_and_far_from_it_one_is(blocks: list[OperatingPoint]) -> None:
     scene = scene_of(control__accuracy="1 %")  # which one block cannot give
     state, out = led(scene, 4)
     assert len(blocks) == 1
     assert RangeFlag.UNSURE in RangeFlag(out.range_flags)
-    faster = replace(scene.operation.point, speed_1=4.1, speed_2=3.9)
-    for _ in range(2):
-        state, _ = advance(scene, faster, state, 1.0)
-    assert len(blocks) == 2
-    assert blocks[1].speed_1 == 4.1
+    for speed, solved in ((0.11, 1), (0.3, 2), (4.0, 3), (4.0, 3)):
+        state, _ = advance(scene, at_speed(scene, speed), state, 1.0)
+        assert len(blocks) == solved
 
 
-def test_a_block_that_fails_is_not_tried_again_and_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    "flag",
+    [None, RangeFlag.NOT_CONVERGED, RangeFlag.FALLBACK, RangeFlag.DOMAIN_EDGE],
+    ids=["raises", "no convergence", "fallback", "edge"],
+)
+def test_a_block_that_fails_is_not_tried_again_and_changes_nothing(
+    flag: RangeFlag | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
     tried = list[float]()
 
     def fails(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
         tried.append(dt)
-        raise ConvergenceError("none")
+        if flag is None:
+            raise ConvergenceError("none")
+        return state, Outputs(friction_coefficient=1.0, h_c=1e-6, contact_load_ratio=1.0, range_flags=int(flag))
 
     monkeypatch.setattr(auto.deterministic, "advance", fails)
     scene = scene_of()

@@ -7,12 +7,14 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import ContactState, RangeFlag, SceneError, advance, initial_state
+from contact_core import ContactState, RangeFlag, Scene, SceneError, advance, initial_state, subsurface_stress
 from contact_core.deterministic import damage
-from contact_core.deterministic.subsurface import Traction, passed
+from contact_core.deterministic.subsurface import Pass, Traction, of_a_pass, outputs_of_stress, passed
+from contact_core.kernels.load_cycle import Cycle
+from contact_core.reference.stresses import line_stress
 from contact_core.scene import Case
 from contact_core.state.below import nothing_below
-from contact_core.surfaces.patches import heights_of, track_rows
+from contact_core.surfaces.patches import heights_of, on_grid, track_rows
 
 DRY = CHEAP | {"control.driver": "dry", "control.dry_instants": "3"}
 STRESSED = DRY | {"stress.model": "half_space", "stress.layers": "6"}
@@ -71,11 +73,16 @@ def test_the_first_block_of_an_operating_point_is_a_whole_pass(driver):
         places = each.below.places[:, 0 if abs(op.speed_1) > abs(op.speed_2) else 1]
         assert len(places) == instants
         assert set(np.diff(places) % columns) <= {columns // instants, columns // instants + 1}
+        rubbed = each.below.shear[:, :-1].sum() * scene.film.spacing**2 / instants
+        assert rubbed == approx(-each.outputs.friction_force, rel=0.01)  # on body 2
     assert outputs.von_mises_max < found[0][1].von_mises_max
 
 
 def test_a_point_under_a_fixed_pressure_sees_it_pass():
-    """Of a pressure that stands still over a moving body each column of the patch has the same history."""
+    """Of a pressure that stands still over a moving body each column of the patch has the same history.
+
+    Every other instant passes all of the body, too: each second column has one history, a little milder.
+    """
     scene, op, _ = run(STRESSED | SMOOTH)
     op = replace(op, speed_1=0.25, speed_2=0.25)
     state, _ = advance(scene, op, initial_state(scene), 0.0)
@@ -85,9 +92,182 @@ def test_a_point_under_a_fixed_pressure_sees_it_pass():
     found = passed(case, rows, [Traction(below.pressure[:rows], below.shear[:rows], (k, k)) for k in range(columns)])
     shear = found.cycles[0].shear
     assert np.ptp(shear, axis=2).max() < 1e-9 * shear.max()
+    fewer = found.halved[0].shear
+    assert np.ptp(fewer[:, :, ::2], axis=2).max() < 1e-9 * shear.max()
+    assert np.all(fewer <= shear * (1.0 + 1e-6)) and fewer.max() < shear.max()
+
+
+def test_each_body_is_stretched_behind_what_rubs_along_it():
+    """Closed form of a line: friction on body 2 is along +x, that on body 1 against it, and a cycle keeps tension."""
+    flank = {"film.model": "deterministic", "film.points": "129", "film.domain": "1 mm", "film.width": "62.5 um"}
+    scene = Scene.from_toml("fzg_flank", flank | {"stress.model": "half_space", "stress.layers": "6"})
+    case, rows, a, friction = Case.bind(scene, scene.operation.point), scene.rows, 0.2e-3, 0.3
+    x = scene.grid(rows).x
+    p = np.tile(1e9 * np.sqrt(np.maximum(1.0 - (x / a) ** 2, 0.0)), (rows, 1))
+    found = passed(case, rows, [Traction(p, friction * p, (0, 0))] * 2)
+    deep = scene.depths > 3.0 * scene.film.spacing
+    for sign, cycle in ((-1.0, found.cycles[0]), (1.0, found.cycles[1])):
+        exact = line_stress(x[:-1], scene.depths[deep, None], a, 1e9, 0.3, sign * friction)[:3].sum(axis=0) / 3.0
+        assert cycle.hydrostatic[deep, 0] == approx(np.maximum(exact, 0.0), abs=0.02 * exact.max())
+
+
+def test_the_scatter_of_a_pass_is_the_standard_error_of_the_mean_of_its_instants():
+    """Of tractions 10 % above and below their mean: it falls with the root of their number."""
+    _, state, case = pressed()
+    p = state.below.pressure[: state.rows]
+    for instants in (4, 16):
+        tractions = [Traction(factor * p, 0.0 * p, (0, 0)) for factor in (0.9, 1.1)] * (instants // 2)
+        found = passed(case, state.rows, tractions)
+        assert found.scatter == approx(0.1 / np.sqrt(instants), rel=1e-9)
+        assert found.von_mises == approx(passed(case, state.rows, [Traction(p, 0.0 * p, (0, 0))]).von_mises)
+
+
+def test_the_stress_of_an_instant_is_that_of_the_worse_body_in_any_layer():
+    """Friction toward the steep side of a pressure and away from it: beside two half spaces, one for each body."""
+    scene, state, case = pressed()
+    x = np.linspace(-1.0, 1.0, scene.film.points)
+    p = 1e9 * np.outer(np.maximum(1.0 - np.linspace(-2.0, 2.0, state.rows) ** 2, 0.0), np.where(x < 0.5, 1.0 + x, 0.0))
+    found = passed(case, state.rows, [Traction(p, 0.4 * p, (0, 0))]).von_mises
+    bodies = [
+        subsurface_stress(p, way * p, None, scene.film.spacing, scene.depths, poisson_ratio=0.3).von_mises
+        for way in (-0.4, 0.4)
+    ]
+    alone = np.array([body.max(axis=(1, 2)) for body in bodies])
+    assert np.abs(alone[0] / alone[1] - 1.0).max() > 0.02
+    assert found == approx(alone.max(axis=0), rel=1e-9)
+
+
+def test_what_a_body_carries_along_presses_one_place_of_it():
+    """A bump on body 1 crosses the grid with its patch; body 2 stands still and is pressed all along the way."""
+    scene, state, case = pressed()
+    bump = np.zeros((state.rows, scene.film.points - 1))
+    bump[state.rows // 2, 5] = 1e9
+    tractions = [Traction(on_grid(bump, k), np.zeros((state.rows, scene.film.points)), (k, 0)) for k in range(0, 24, 3)]
+    carried, crossed = (cycle.shear[0, state.rows // 2] for cycle in passed(case, state.rows, tractions).cycles)
+    assert carried.argmax() == 5
+    assert np.sort(carried)[-4] < 0.2 * carried.max()
+    assert np.all(crossed[5:27:3] > 0.9 * carried.max())
+
+
+def test_a_residual_stress_is_there_before_under_and_after_a_load():
+    """It adds 2/3 of itself to hydrostatic stresses and nothing to the amplitude of shear."""
+    (scene, state, case), (_, _, strained) = pressed(), pressed(stress__residual="-300 MPa")
+    tractions = [Traction(state.below.pressure[: state.rows], state.below.shear[: state.rows], (0, 0))] * 2
+    none, found = (passed(each, state.rows, tractions).cycles[1] for each in (case, strained))
+    assert found.shear == approx(none.shear, rel=1e-6)
+    assert found.hydrostatic - none.hydrostatic == approx(np.full_like(none.shear, -200e6), rel=1e-6)
+    shift = -200e6 * scene.stress.dang_van_slope
+    assert found.dang_van - none.dang_van == approx(np.full_like(none.shear, shift), rel=1e-4)
+
+
+@pytest.mark.parametrize("speeds", [(0.3, 0.2), (0.2, 0.3), (-0.3, -0.2), (-0.2, -0.3)])
+def test_a_pass_is_that_of_the_faster_body_whichever_way_it_moves(speeds):
+    """Of instants a node apart every fourth counts, until the faster body has passed the grid."""
+    scene, state, case = pressed()
+    case = Case.bind(scene, replace(case.op, speed_1=speeds[0], speed_2=speeds[1]))
+    nothing, fastest = np.zeros((1, 1)), max(abs(speed) for speed in speeds)
+    ways = [[round(k * speed / fastest) % 32 for k in range(40)] for speed in speeds]
+    found = of_a_pass(case, state, [Traction(nothing, nothing, places) for places in zip(*ways, strict=True)], False)
+    fast = [each.places[int(abs(speeds[1]) > abs(speeds[0]))] for each in found]
+    assert fast == [(4 * k if speeds[0] > 0.0 else -4 * k) % 32 for k in range(8)]
+    assert [damage.cycles_in(side, 2.0) for side in case.sides] == approx(
+        [2.0 * abs(side.speed) / side.track_length for side in case.sides]
+    )
+
+
+def test_the_share_near_the_surface_is_of_what_may_fail_in_either_body():
+    scene, state, case = pressed(stress__near_surface="0.4")
+    shape = scene.depths.size, state.rows, scene.film.points - 1
+    top, bottom = (np.zeros(shape) for _ in range(2))
+    top[0], bottom[-1] = 1.1e9, 1.0e9
+    track = track_rows(scene, state.rows)
+    top[0, ~track] = 3e9  # where nobody looks
+
+    def share(*shears):
+        cycles = tuple(Cycle(shear, 0.0 * shear, shear) for shear in shears)
+        found = outputs_of_stress(case, state.rows, Pass(cycles, cycles, scene.depths, 0.0))
+        worst = max(shear[:, track].max() for shear in shears) / scene.stress.torsion_limit
+        assert (found["dang_van_ratio"], found["crossland_ratio"]) == approx((worst, worst))
+        return found["near_surface_share"]
+
+    assert (share(top, top), share(bottom, bottom)) == (1.0, 0.0)
+    assert 0.01 < share(top, bottom) == share(bottom, top) < 0.99
+    assert share(top + bottom, 0.0 * top) == share(top, bottom)
+
+
+def pressed(changes=TIRED, **more):
+    """A scene with its first pass, and its case."""
+    scene, state, op = cheap(changes, **more)
+    return scene, advance(scene, op, state, 0.0)[0], Case.bind(scene, op)
+
+
+def test_few_instants_miss_what_half_of_them_find_less():
+    """The rate of damage of a pass less that of a pass of every other of its instants."""
+    _, state, case = pressed()
+    below, rows = state.below, state.rows
+    fields = zip(np.split(below.pressure, 8), np.split(below.shear, 8), below.places.astype(int).tolist(), strict=True)
+    tractions = [Traction(p, q, tuple(places)) for p, q, places in fields]
+    half = damage.with_cycles(case, below, passed(case, rows, tractions[::2]))
+    assert below.short == approx(below.rate - half.rate, rel=1e-9)
+    assert np.all(below.short > 0.02 * below.rate)
+
+
+def test_the_rate_of_damage_scatters_from_pass_to_pass_as_its_stresses_do():
+    """By the exponent of the first pass, and by what later ones differ by, which is the scatter of two."""
+    scene, state, case = pressed()
+    draw, power, shape = np.random.default_rng(1), scene.fatigue.life_exponent, state.below.damage_1.shape
+
+    def after(below, times):
+        stress = np.full((scene.depths.size, state.rows, shape[1]), 2e8 * times)
+        cycle = Cycle(stress, 0.0 * stress, 0.0 * stress)
+        return damage.with_cycles(case, below, Pass((cycle, cycle), (cycle, cycle), scene.depths, 0.01))
+
+    below = after(replace(state.below, rate=np.zeros(2)), 1.0)
+    rate, squares = below.rate, []
+    assert below.spread == approx(0.01 * power * rate, rel=0.02)
+    for times in 1.0 + 0.01 * draw.normal(size=600):
+        below = after(below, times)
+        squares.append(below.spread**2)
+    assert np.sqrt(np.mean(squares[20:], axis=0)) == approx(0.01 * power * rate, rel=0.15)
+
+
+def test_wear_of_a_body_takes_its_own_damage_and_a_pit_its_tribofilm_and_oxide():
+    scene, state, case = pressed()
+    layers = np.repeat(np.linspace(0.9, 0.1, scene.depths.size), state.rows)
+    fields = np.tile(layers[:, None], scene.film.points - 1)
+    failed = fields.copy()
+    failed[: state.rows, :5] = 1.0
+    films = {name: np.full_like(state.bodies[0].wear, 1e-9) for name in ("growth", "removal", "oxide")}
+    state = replace(state, below=replace(state.below, damage_1=fields, damage_2=failed))
+    first, second = (replace(body, **films) for body in state.bodies)
+    worn = replace(first, wear=first.wear + scene.depths[1])
+    (still, _), (below, bodies) = (damage.fatigued(case, state, (body, second), 1e-6) for body in (first, worn))
+    assert np.all(below.damage_1[: state.rows] < 0.95 * still.damage_1[: state.rows])
+    assert np.array_equal(below.damage_2, still.damage_2)
+    for name in films:
+        assert np.array_equal(getattr(bodies[1], name), np.where(bodies[1].pits > 0.0, 0.0, 1e-9))
+    assert bodies[1].pits[:, :5].min() > 0.0 == bodies[1].pits[:, 5:].max()
+
+
+def test_a_rate_that_is_held_while_it_rises_is_late_by_what_is_stated():
+    """Found anew every minute, a rate that rises steadily lags by half of each change, the last included."""
+    scene, state, case = pressed(TIRED | {"wear.model": "none"})
+    shape = scene.depths.size, state.rows, scene.film.points - 1
+    below, rates = replace(state.below, rate=np.zeros(2)), []
+    for rising in (1.0, 1.1, 1.2, 1.3, 1.4):
+        stress = 2e8 * rising ** (1.0 / scene.fatigue.life_exponent)
+        cycle = Cycle(*(np.full(shape, part) for part in (stress, 0.0, 0.0)))
+        below = damage.with_cycles(case, below, Pass((cycle, cycle), (cycle, cycle), scene.depths, 0.0))
+        rates.append(below.rate)
+        below, _ = damage.fatigued(case, replace(state, below=below), state.bodies, 60.0)
+    found = [damage.damage_of_track(scene, replace(state, below=below), i) for i in (0, 1)]
+    assert rates == approx(rates[0] * np.array([[1.0], [1.1], [1.2], [1.3], [1.4]]), rel=1e-9)
+    exact = rates[0] * 300.0 * 1.25
+    assert [below.errors(i)[0] for i in (0, 1)] == approx(exact - found, rel=1e-6)
 
 
 def test_damage_under_constant_cycles_is_their_number_times_that_of_one():
+    """And its error that of one pass times the time it is held, however that is cut."""
     changes = TIRED | {"wear.model": "none", "control.longest": "1e6 s", "tribofilm.model": "none"}
     scene, op, found = run(changes, 0.0, 3.0, 4.0, 5.0)
     first, last = found[0][0], found[-1][0]
@@ -97,6 +277,10 @@ def test_damage_under_constant_cycles_is_their_number_times_that_of_one():
     exact = damage.cycles_in(side, 12.0) * first.below.per_cycle_1
     assert last.below.damage_1 == approx(exact, rel=1e-14)
     assert last.outputs.load_cycles_1 == approx(damage.cycles_in(side, 12.0), rel=1e-14)
+    once = advance(scene, op, first, 12.0)[0].below
+    assert np.all(once.variance > 0.0)
+    for body in (0, 1):
+        assert last.below.errors(body) == approx(once.errors(body), rel=1e-12)
 
 
 def test_wear_takes_damage_away():
@@ -176,6 +360,9 @@ def test_without_a_load_nothing_tires():
     state, outputs = advance(scene, replace(op, load=0.0), state, 50.0)
     assert np.array_equal(state.below.damage_1, harmed)
     assert outputs.von_mises_max == 0.0
+    stated = [state.below.errors(i) for i in (0, 1)]
+    state, _ = advance(scene, replace(op, load=0.0), state, 5000.0)
+    assert [state.below.errors(i) for i in (0, 1)] == stated  # nor gets less sure
     state, outputs = advance(scene, op, state, 5.0)
     assert outputs.von_mises_max > 0.0
     assert state.below.damage_1.max() > harmed.max()

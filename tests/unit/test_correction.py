@@ -4,15 +4,19 @@ import numpy as np
 import pytest
 from comparison import approx
 
+from contact_core import Scene
 from contact_core.correction import (
     CORRECTED,
     CORRELATIONS,
     NO_KNOTS,
+    Conditioned,
     Knots,
     Place,
     conditioned,
     covariance,
     knots,
+    nearness,
+    pair_of,
     place,
 )
 
@@ -56,6 +60,19 @@ def test_a_knot_is_reproduced_within_the_error_that_is_left(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", OUTPUTS)
+def test_a_solution_tells_the_less_the_less_sure_it_is(name: str) -> None:
+    """One as unsure as the regression level takes half of the way, and leaves half of the variance; a wild one none."""
+    law, k = CORRELATIONS[name], OUTPUTS.index(name)
+    shared = 1.0 - law.nugget  # of two contacts in one place
+    for own, told_of in ((0.0, 1.0), (1.0, 0.5), (1e4, 0.0)):
+        given = Knots(np.array(["a"], object), np.array([HERE]), np.full((1, 3), 0.4), np.full((1, 3), own))
+        found = conditioned(given, given.pairs, given.places)
+        assert found.mean[0, k] == approx(0.4 * told_of * shared, abs=1e-6)
+        left = law.wider * (1.0 - told_of * shared**2) ** 0.5
+        assert found.left[0, k] == approx(min(left, 1.0), abs=1e-6)
+
+
+@pytest.mark.parametrize("name", OUTPUTS)
 def test_far_away_and_on_other_surfaces_the_regression_level_is_as_it_was(name: str) -> None:
     far = Place(*(np.array(HERE) + 1e3))
     found = told(knot(), far, "b")
@@ -80,6 +97,42 @@ def test_what_is_not_known_tells_nothing() -> None:
     assert told(sure)["friction_coefficient"] > FAST["friction_coefficient"]
     unloaded = place(FAST | {"lambda_ratio": 1.0, "friction_force": 0.0, "friction_solid": 0.0}, 0.0, (1.0, 0.5), 0.0)
     assert told(knot(), unloaded) == told(NO_KNOTS)
+
+
+def test_a_corrected_contact_can_be() -> None:
+    """Friction and film are more than nothing, and the solids carry a part of the load, whatever the knots say."""
+    for mean in (-5.0, 5.0):
+        found = Conditioned(np.full((1, 3), mean), np.ones((1, 3))).of(FAST)
+        assert found["friction_coefficient"][0] > 0.0
+        assert found["h_c"][0] > 0.0
+        assert 0.0 <= found["contact_load_ratio"][0] <= 1.0
+
+
+def test_one_contact_has_one_place_whichever_way_it_runs_and_however_large_it_is() -> None:
+    oil = {"lambda_ratio": 0.5, "friction_force": 4.0, "friction_solid": 3.0}
+    here = np.array(place(FAST | oil, 100.0, (0.3, 0.2), 0.1))
+    for speeds in ((0.2, 0.3), (-0.3, -0.2), (3.0, 2.0)):
+        assert np.array(place(FAST | oil, 100.0, speeds, 0.1)) == approx(here, rel=1e-12)
+    larger = {"lambda_ratio": 0.5, "friction_force": -8.0, "friction_solid": -6.0}
+    assert np.array(place(FAST | larger, 200.0, (0.3, 0.2), 0.1)) == approx(here, rel=1e-12)
+    less = {"lambda_ratio": 0.5, "friction_force": 3.5, "friction_solid": 3.0, "contact_load_ratio": 0.7}
+    half = place(FAST | less, 100.0, (0.3, 0.2), 0.1)  # of the oil's friction and load
+    assert half.oil == approx(here[4], rel=1e-12)
+
+
+def test_places_a_length_apart_deviate_alike_by_a_normal_curve_s_deviation() -> None:
+    law, here = CORRELATIONS["h_c"], np.array([HERE])
+    steps = np.diag(law.lengths)
+    assert nearness(law, here, here + steps) == approx(np.exp(-0.5), rel=1e-12)
+    assert nearness(law, here, here + steps[:1] - steps[1:]) == approx(np.exp(-1.0), rel=1e-12)
+
+
+def test_a_pair_is_of_both_surfaces_and_of_nothing_else() -> None:
+    def pair(**changes: str) -> str:
+        return pair_of(Scene.from_toml("mtm_zddp", {name.replace("__", "."): value for name, value in changes.items()}))
+
+    assert pair(operation__load="20 N", film__points="65") == pair()
+    assert len({pair(), pair(surface_1__rq="30 nm"), pair(surface_2__rq="30 nm")}) == 3
 
 
 def test_half_widths_never_grow_with_more_knots() -> None:

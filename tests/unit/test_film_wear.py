@@ -12,7 +12,11 @@ from contact_core import ContactState, Scene, SceneError, advance, initial_state
 from contact_core.deterministic.growth_and_wear import evolved
 from contact_core.laws.tribofilm import Ghanbarzadeh, thickness
 from contact_core.laws.wear import Archard, FilmFirst
+from contact_core.regression.contact import evaluate
+from contact_core.regression.exposure import abrasion, track_area
+from contact_core.regression.surfaces import tribofilms_of
 from contact_core.scene import Case
+from contact_core.surfaces.track_means import means_of
 
 FIRST = FilmFirst(1e-5, 1e-6)
 FULL = 176e-9
@@ -86,6 +90,24 @@ def test_a_full_film_loses_an_archard_volume_with_its_own_coefficient_and_hardne
     rate = FIRST.film_removal(1e8, (0.2, 0.25), 0, 2e9, FULL)
     assert rate * FULL == approx(1e-6 * 1e8 * 0.05 / 2e9, rel=1e-12, abs=0.0)
     assert Archard(1e-5, 1e-6).film_removal(1e8, (0.2, 0.25), 0, 2e9, FULL) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("speeds", "part"),
+    [((0.3, 0.25), 1.0), ((0.05, 0.0), 1.0), ((0.3, 0.25), 0.3)],
+    ids=["both move", "one is at rest", "a part of the load"],
+)
+def test_tracks_of_the_regression_level_lose_archards_volume_of_film_for_the_force_on_their_solids(speeds, part):
+    """K W v / H with the hardness of a full film, however long and wide the tracks are."""
+    scene, state, op = cheap(DRY | WORN)
+    scene, op = scene.at_level("regression"), replace(op, load=part * op.load, speed_1=speeds[0], speed_2=speeds[1])
+    case = Case.bind(scene, op)
+    contact = evaluate(case, tribofilms_of(means_of(scene, state)))
+    force, sliding = contact.load_ratio * op.load, abs(speeds[0] - speeds[1])
+    assert scene.plasticity.film_hardness < 0.9 * scene.plasticity.hardness
+    for side in case.sides:
+        lost = abrasion(case, side, contact) * scene.tribofilm.full_thickness * track_area(case, side)
+        assert lost == approx(1e-4 * force * sliding / scene.plasticity.film_hardness, rel=1e-9)
 
 
 def test_wear_of_steel_falls_while_the_film_covers_and_rises_again_where_it_is_rubbed_away():

@@ -11,7 +11,11 @@ from comparison import approx
 from contact_core import advance, initial_state, solve
 from contact_core.deterministic.friction import derivatives
 from contact_core.laws.oxide import Logarithmic, NoOxide
+from contact_core.regression.contact import evaluate
+from contact_core.regression.exposure import oxidation, oxidised, track_area, wear_rate
+from contact_core.regression.surfaces import tribofilms_of
 from contact_core.scene import Case
+from contact_core.surfaces.track_means import means_of
 
 LAW = Logarithmic()
 DRY = CHEAP | {"control.driver": "dry", "control.dry_instants": "2"}
@@ -72,6 +76,32 @@ def test_an_oxide_grows_on_bare_steel_in_a_contact_without_wear_of_it_as_its_law
     _, outputs = advance(scene, op, state, 50.0)
     expected = LAW.scale * math.log1p(LAW.growth(op.temperature) * 60.0 / LAW.scale)
     assert outputs.oxide_1 == approx(expected, rel=1e-9)
+
+
+def test_halfway_through_a_step_an_oxide_is_what_half_of_its_time_makes():
+    """By the growth without wear, x_0 ln(1 + A t / x_0), which is more than half of what the whole step makes."""
+    scene, _, op = cheap(DRY | BARE | ON | {"oxide.wear": "0"})
+    scene = scene.at_level("regression")
+    case = Case.bind(scene, op)
+    contact = evaluate(case, tribofilms_of(means_of(scene, initial_state(scene))))
+    after, halfway, lost = oxidised(case, case.sides[0], contact, 0.0, 0.0, 60.0)
+    grown = LAW.growth(op.temperature) * np.array([60.0, 30.0]) / LAW.scale
+    assert [after, halfway] == approx(LAW.scale * np.log1p(grown), rel=1e-9)
+    assert lost == 0.0
+
+
+def test_what_is_rubbed_off_bare_steel_is_what_oxidises_and_a_tribofilm_keeps_both_from_it():
+    """However hard it is rubbed; 10 nm of film leave 1/e of the growth and of the wear of the oxide."""
+    scene, state, op = cheap(DRY | BARE | ON | {"oxide.wear": "1", "wear.bare": "0", "wear.film": "0"})
+    scene = scene.at_level("regression")
+    case = Case.bind(scene, op)
+    contact, side = evaluate(case, tribofilms_of(means_of(scene, state))), case.sides[1]
+    growing, rubbing = oxidation(case, side, contact, 0.0)
+    assert rubbing > 2.0 * growing > 0.0
+    steel = track_area(case, side) / scene.oxide.volume_ratio
+    assert wear_rate(case, side, contact, 0.0, 0.0) == approx(growing * steel)
+    assert wear_rate(case, side, contact, 0.0, 1e-9) == approx(rubbing * steel)
+    assert oxidation(case, side, contact, 10e-9) == approx((growing / np.e, rubbing / np.e))
 
 
 @pytest.mark.parametrize("level", LEVELS)

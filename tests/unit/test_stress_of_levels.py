@@ -13,7 +13,7 @@ from contact_core.laws.stress import share_down_to
 from contact_core.reference.stresses import line_stress
 from contact_core.regression import fatigue, stress
 from contact_core.regression.contact import evaluate
-from contact_core.regression.near_surface import CURVES, meetings
+from contact_core.regression.near_surface import CURVES, HALF_WIDTH, meetings
 from contact_core.regression.smooth_cycles import smooth_cycles
 from contact_core.regression.surfaces import tribofilms_of
 from contact_core.scene import Case
@@ -24,6 +24,7 @@ from contact_core.surfaces.track_means import folded, means_of
 
 FAST = {"film.model": "regression", "stress.model": "half_space"}
 BASQUIN = {"fatigue.model": "basquin", "fatigue.reference_stress": "900 MPa", "fatigue.life_exponent": "8"}
+ENDLESS = {"fatigue.reference_stress": "100 GPa"}
 NO_WEAR = {"wear.bare": "0", "wear.film": "0"}
 SMOOTH = {f"surface_{i}.{name}": "0 m" for i in (1, 2) for name in ("rq", "microroughness.rms")}
 COARSE = {"film.points": "33", "film.domain": "0.8 mm", "film.width": "0.4 mm", "control.mixed_instants": "4"}
@@ -102,6 +103,108 @@ def test_a_body_meets_the_roughness_of_the_other_by_what_slides_past_a_point_on_
     assert meetings((0.5, 0.3), 10.0, (0.0, 1.0)) == approx([10.0 * 0.2 / 0.5, 0.0])  # all roughness is body 2's
     assert meetings((0.5, 0.3), 10.0, (1.0, 0.0)) == approx([0.0, 10.0 * 0.2 / 0.3])
     assert not meetings((0.4, 0.4), 10.0, (0.5, 0.5)).any()  # in rolling the same asperities stay together
+
+
+def test_a_residual_stress_adds_its_hydrostatic_part_to_every_cycle_and_nothing_to_its_shear() -> None:
+    """Along the surface in both directions: 2/3 of it, by superposition."""
+    none, pressed = (stressed(line(stress__residual=given)) for given in ("0 Pa", "9 GPa"))
+    torsion, bending = 361.4e6, 625.9e6
+    dang_van, crossland = 3.0 * (torsion / bending - 0.5), 3.0 * torsion / bending - 3.0**0.5
+    for part, weight in (("shear", 0.0), ("hydrostatic", 1.0), ("dang_van", dang_van)):
+        before, after = getattr(none.cycles, part), getattr(pressed.cycles, part)
+        assert after - before == approx(np.full_like(before, weight * 6e9), abs=1e-6 * 9e9)
+    for name, weight in (("dang_van_ratio", dang_van), ("crossland_ratio", crossland)):
+        assert pressed.outputs[name] - none.outputs[name] == approx(weight * 6e9 / torsion, rel=1e-6)
+    assert pressed.outputs["von_mises_max"] > 8.9e9  # of the residual stress alone, beside the contact
+
+
+def test_the_error_of_damage_is_that_of_stresses_off_by_their_half_width_and_wider_beyond_the_fit() -> None:
+    """Damage rises with the eighth power of the stress; of half the error the half width would be a third smaller."""
+    within = line(BASQUIN | ENDLESS)
+    steep = line(BASQUIN | ENDLESS, surface_1__rq="2 um", surface_2__rq="2 um")
+    point, fresh = within.operation.point, means_of(within, initial_state(within))
+    rubbed = tuple(changed(mean, roughness=0.5 * mean.roughness) for mean in fresh)
+    assert width_of(within, point, fresh) == approx(HALF_WIDTH, rel=1e-9)
+    slow = replace(point, speed_1=1e-4 * point.speed_1, speed_2=1e-4 * point.speed_2)
+    skids = replace(point, speed_2=0.2 * point.speed_1)
+    for scene, op, means in (
+        (steep, point, means_of(steep, initial_state(steep))),
+        (within, slow, fresh),
+        (within, skids, fresh),
+        (within, point, rubbed),
+    ):
+        assert width_of(scene, op, means) > 1.5 * HALF_WIDTH
+
+
+def width_of(scene: Scene, op: Any, means: Any) -> float:
+    """Return the half width of stresses that the error of damage is of."""
+    case = Case.bind(scene, op)
+    harm = fatigue.harm_by(case, evaluate(case, tribofilms_of(means)))
+    below = fatigue.outputs_below(case, Outputs(), harm, unharmed_classes(scene.depths.size, 1), means)
+    return float((1.0 + below["error_damage"]) ** (1.0 / 8.0) - 1.0)
+
+
+def test_the_error_of_damage_is_that_of_the_less_sure_body_and_pits_stay() -> None:
+    """Whatever rates tell of a class now."""
+    scene = line(BASQUIN)
+    case, means = Case.bind(scene, scene.operation.point), means_of(scene, initial_state(scene))
+    fresh = unharmed_classes(scene.depths.size, 1)
+    once = np.full((2, scene.depths.size, 1, WEIGHTS.size), 1e-9)
+    for factors in ((1.2, 3.0), (3.0, 1.2)):
+        more = once * np.array(factors)[:, None, None, None]
+        harm = fatigue.Harm({}, once, more)
+        before = Outputs(micropitted_area_1=0.2, micropitted_area_2=0.1)
+        found = fatigue.outputs_below(case, before, harm, fresh, means)
+        assert found["error_damage"] == approx(2.0)
+        assert (found["micropitted_area_1"], found["micropitted_area_2"]) == (0.2, 0.1)
+
+
+def test_solids_and_oil_shear_alike_what_is_below() -> None:
+    scene = line()
+    case = Case.bind(scene, scene.operation.point)
+    contact = evaluate(case, tribofilms_of(means_of(scene, initial_state(scene))))
+    force = 0.2 * case.op.load
+    solids, oil, none = (
+        stress.stressed(case, contact._replace(solid=solid, fluid=fluid)).cycles.dang_van
+        for solid, fluid in ((force, 0.0), (0.0, force), (0.0, 0.0))
+    )
+    assert np.array_equal(solids, oil)
+    assert np.all(solids[:, 0] > none[:, 0])
+
+
+def test_a_smooth_body_that_slides_along_a_rough_one_is_loaded_more_evenly() -> None:
+    """Each of its points meets many asperities; one of the rough body always its own. Its length is nobody's."""
+    one_way = line(surface_1__rq="0 nm", stress__layers="4")
+    point = replace(one_way.operation.point, speed_1=1.2, speed_2=1.0)
+
+    def cycles(scene: Scene) -> Any:
+        case = Case.bind(scene, point)
+        return stress.stressed(case, evaluate(case, tribofilms_of(means_of(scene, initial_state(scene))))).cycles
+
+    smooth, rough = cycles(one_way).shear[:, 0, 0]
+    assert np.ptp(smooth) < np.ptp(rough)
+    assert smooth[0] > rough[0]
+    other = line(surface_1__rq="0 nm", stress__layers="4", surface_1__correlation_length="60 um")
+    assert cycles(other).shear == approx(cycles(one_way).shear, rel=1e-9)
+
+
+def test_classes_that_fail_in_a_long_step_do_so_one_after_the_other() -> None:
+    """As in many short ones: what lies in a pit gains nothing more, and all others as much as ever."""
+    scene = line(BASQUIN)
+    case, start = Case.bind(scene, scene.operation.point), means_of(scene, initial_state(scene))
+    harm = fatigue.harm_by(case, evaluate(case, tribofilms_of(start)))
+    lasts = 1.0 / float(harm.per_cycle.max())
+    found = []
+    for steps in (1, 300):
+        classes, then = unharmed_classes(scene.depths.size, 1), start
+        for _ in range(steps):
+            now = tuple(changed(mean, cycles=mean.cycles + 6.0 * lasts / steps) for mean in then)
+            classes, then = fatigue.fatigued(scene, classes, harm, then, now), now  # type: ignore[arg-type]
+        found.append(classes)
+    once, often = found
+    assert 0 < np.count_nonzero(often.pits_1) < WEIGHTS.size
+    assert np.array_equal(once.pits_1 > 0.0, often.pits_1 > 0.0)
+    assert once.pits_1 == approx(often.pits_1, rel=0.1)
 
 
 def test_fainter_roughness_ends_at_the_smooth_bodies() -> None:
