@@ -22,6 +22,6 @@ def cheap(changes=CHEAP, **more):
 
 @cache
 def settled(**more):
-    """The same with the first block solved, which is most of a short run: its oil comes to rest about the asperities."""
+    """The same with its first block solved, which is most of a short run: the march until the film is settled."""
     scene, state, op = cheap(**more)
     return scene, advance(scene, op, state, 0.0)[0], op

@@ -233,8 +233,8 @@ def test_removal_at_the_edges_leaves_the_middle_of_the_track_as_thick():
     films = {}
     for weight in ("0", "5"):
         changes = DRY | HARD | {"tribofilm.set": "gosvami", "tribofilm.edge_weight": weight, "wear.model": "none"}
-        changes |= {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "control.longest": "600 s", "control.change": "1 um"}
-        scene, state, op = cheap(changes)
+        changes |= {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}
+        scene, state, op = cheap(changes, control__longest="600 s", control__change="1 um")
         state, _ = advance(scene, op, state, 3600.0)
         films[weight] = state.bodies[0].growth.mean(axis=1)
     share = films["5"] / np.maximum(films["0"], 1e-12)
