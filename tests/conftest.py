@@ -21,8 +21,9 @@ from hypothesis import HealthCheck, settings
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 UNTIMED = [HealthCheck.too_slow]  # which a busy machine fails
+EXAMPLES = int(os.environ.get("TRIBOFMU_TEST_EXAMPLES", "25"))  # of each property: more in .ci/full
 settings.register_profile(
-    "repeatable", derandomize=True, deadline=None, database=None, max_examples=60, suppress_health_check=UNTIMED
+    "repeatable", derandomize=True, deadline=None, database=None, max_examples=EXAMPLES, suppress_health_check=UNTIMED
 )
 settings.load_profile("repeatable")
 

@@ -34,12 +34,12 @@ def test_wear_of_smooth_bodies_converges_with_first_order_in_the_blocks():
 def test_the_dose_of_a_smooth_body_evens_out_with_the_instants():
     """Faster than by the square root of their number: their offsets are of low discrepancy."""
     spread = []
-    for instants in (16, 64, 256):
+    for instants in (16, 256):
         scene = Scene.from_toml("azam_case_a", CHEAP | {"surface_1.rq": "0 nm", "control.dry_instants": str(instants)})
         state = initial_state(scene)
         sweep = Accumulator.before(state)
         sample_dry(Case(scene, scene.operation.point), state, sweep, same=True)
         middle = sweep.pressures[0][14:19] / instants
         spread.append(float((middle.std(axis=1) / middle.mean(axis=1)).mean()))
-    assert spread[0] / spread[2] > 2.0 * np.sqrt(16.0)
-    assert spread[2] < 0.06
+    assert spread[0] / spread[1] > 2.0 * np.sqrt(16.0)
+    assert spread[1] < 0.06

@@ -106,7 +106,7 @@ def test_films_of_the_fitted_flow_are_near_that_limit_on_33_nodes_already(ratio,
     assert found == approx(np.full(2, limit), rel=0.03)
 
 
-@pytest.mark.parametrize(("ratio", "load"), [(2.843, 20.0), (2.843, 100.0), (2.843, 500.0), (11.83, 100.0)])
+@pytest.mark.parametrize(("ratio", "load"), [(2.843, 20.0), (2.843, 500.0)])
 def test_films_across_the_long_axis_are_those_of_the_formula(ratio, load):
     given = of_moes(load, 10.0, ratio)
     coarse, fine = films(given, (65, 129))

@@ -64,7 +64,8 @@ ROUTES = [
 
 @pytest.mark.parametrize(("method", "start", "rq", "load"), ROUTES)
 def test_an_easier_flow_is_that_of_a_thinner_oil_to_the_last_bit(method, start, rq, load):
-    now, grid = contact(rq, load)
+    # thick enough for 33 nodes, of which multigrid makes nothing
+    now, grid = contact(rq, load, nodes=65 if method == "multigrid" else 33, speed=4.0)
     instants = (*two_ways(now), now)
     eased, thinner, plain = (_Solver(Scaled(each, grid, SETTINGS), None, None).run(method, start) for each in instants)
     assert eased.converged
@@ -78,7 +79,7 @@ def test_an_easier_flow_is_that_of_a_thinner_oil_to_the_last_bit(method, start, 
 @pytest.mark.parametrize("method", ["hybrid", "direct", "newton"])
 @pytest.mark.parametrize("rq", [0.0, 100e-9])
 def test_a_time_step_feels_it_the_same_way(method, rq):
-    now, grid = contact(rq)
+    now, grid = contact(rq, nodes=33)
     start = solve_film(now, grid, SETTINGS).state
     instants, step = (*two_ways(now), now), Step(2e-6, 1)
     eased, thinner, plain = (

@@ -1,5 +1,6 @@
 """An FMU that answers for held inputs costs the coupling its order, and its derivatives give it back."""
 
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return {"mass": build("mass_1_force", folder), "drag": build("drag", folder, interpolates=False)}
 
 
+@cache
 def speed() -> float:
     """Of m x'' + d x' + k x = -c v - q v |v| at t = 1, for m = 1, k = 10, d = 0.1, c = 1, q = 2, x(0) = 1."""
 

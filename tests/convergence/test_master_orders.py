@@ -63,11 +63,9 @@ def test_an_extrapolated_input_gives_order_k_plus_1_and_the_known_errors(folder,
 
 
 @pytest.mark.parametrize("order", [0, 1, 2])
-@pytest.mark.parametrize("algorithm", ALGORITHMS)
-@pytest.mark.parametrize("method", ["fixed_point", "aitken", "quasi_newton"])
-def test_an_iterated_step_gives_order_k_plus_1(folder, method, algorithm, order):
+def test_an_iterated_step_gives_order_k_plus_1(folder, order):
     case = systems.two_mass_force(folder)
-    found = errors(case, algorithm, order, (0.01, 0.005), iterate=method, iteration_tolerance=1e-11)
+    found = errors(case, "gauss_seidel", order, (0.01, 0.005), iterate="quasi_newton", iteration_tolerance=1e-11)
     assert last_order(found) == approx(order + 1, abs=0.15)
 
 

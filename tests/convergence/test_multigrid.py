@@ -218,7 +218,7 @@ def test_smooth_films_of_any_light_or_moderate_load_converge():
         assert (np.abs(inflow) * p)[1:-1, 1:-1].sum() < 1e-3 * (mass * p).sum()
 
 
-@pytest.mark.parametrize("load", [3e3, 1e4, 3e4, 5e4])
+@pytest.mark.parametrize("load", [3e3, 5e4])
 @pytest.mark.parametrize("oil", ["barus", "roelands"])
 def test_a_film_too_thin_for_the_grid_is_not_called_converged(load, oil):
     for points, lubricant in ((65, 2.0), (65, 15.0)):

@@ -54,7 +54,6 @@ def formula_film(scene, op):
     )
 
 
-@settings(max_examples=40)
 @given(operating_points(), roughness())
 def test_an_instant_is_finite_bounded_and_carries_its_load(op, rq):
     scene = Scene.from_toml("azam_case_a", SMALL | {"surface_2.rq": rq})

@@ -73,7 +73,7 @@ def test_stations_cover_the_path_and_none_lies_on_a_step_of_the_load(pair, count
 def test_a_mesh_of_few_stations_has_the_loss_factor_of_many(data, pair, force):
     """Relief bends the load within stretches, more so under light loads; without it the sum is of second order."""
     sharing = data.draw(sharings(pair))
-    few, many = (GearMesh(pair=pair, load_sharing=sharing, stations=count) for count in (41, 2001))
+    few, many = (GearMesh(pair=pair, load_sharing=sharing, stations=count) for count in (41, 401))
     inputs = {q.name: q.start for q in many.inputs} | {"torque": force * pair.base_radius_1}
     found, exact = (mesh.outputs((), inputs)["loss_factor"] for mesh in (few, many))
     tolerance = 1e-9 if sharing.model == "rigid" else 2e-3 if sharing.relief_1 == sharing.relief_2 == 0.0 else 0.05

@@ -43,8 +43,7 @@ def same(one: xr.Dataset, other: xr.Dataset, renamed: dict[str, str] | None = No
 @pytest.mark.parametrize("settings", SETTINGS, ids=str)
 def test_the_order_of_listing_does_not_matter(paths, settings):
     reference = simulate(System(paths, WIRES), 0.1, 0.01, **settings)
-    wirings = [*permutations(WIRES)][::5]
-    for names, wires in zip(permutations(FMUS), wirings, strict=True):
+    for names, wires in zip([*permutations(FMUS)][3::5], [*permutations(WIRES)][19::25], strict=True):
         system = System({name: paths[name] for name in names}, wires)
         assert same(reference, simulate(system, 0.1, 0.01, **settings)), (names, wires)
 
@@ -68,7 +67,7 @@ def test_names_of_fmus_do_not_matter(paths, algorithm):
         return f"{new[fmu]}.{variable}"
 
     reference = simulate(System(paths, WIRES), 0.1, 0.01, algorithm=algorithm, order=1)
-    for names in permutations(FMUS):
+    for names in [*permutations(FMUS)][3::5]:
         new = dict(zip(FMUS, names, strict=True))
         wires = [(renamed(source), renamed(target), *factor) for source, target, *factor in WIRES]
         result = simulate(

@@ -27,7 +27,10 @@ def test_a_point_always_rubbed_follows_the_closed_form_for_any_splitting_of_time
     assert abs(found[0] - expected) < 1e-12 * law.full_thickness
 
 
-SETS = ("zhang_spikes_80c_ethylhexyl", "gosvami", "combined_80c")
+SETS = {
+    name: Scene.from_toml("mtm_zddp", {"tribofilm.set": name}).tribofilm
+    for name in ("zhang_spikes_80c_ethylhexyl", "gosvami", "combined_80c")
+}
 
 
 @pytest.mark.parametrize("name", SETS)
@@ -38,7 +41,7 @@ SETS = ("zhang_spikes_80c_ethylhexyl", "gosvami", "combined_80c")
 def test_growth_and_removal_in_proportion_follow_their_exponential_for_any_splitting(
     name, steps, growing, taking, start
 ):
-    law = Scene.from_toml("mtm_zddp", {"tribofilm.set": name}).tribofilm
+    law = SETS[name]
 
     def rub(film, step):
         return law.evolve(*film, np.array([growing * step]), np.array([taking * step]), 353.15)

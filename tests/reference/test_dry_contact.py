@@ -96,9 +96,7 @@ def test_the_hardness_bounds_the_pressure_and_the_load_is_met_all_the_same(hardn
 @pytest.mark.parametrize(
     ("ny", "nx", "cap", "share"),
     [
-        (17, 17, np.inf, 1.0),
         (15, 19, np.inf, 1.0),
-        (17, 17, 1.2, 1.0),
         (16, 21, 0.9, 1.0),
         (17, 17, 0.9, 0.05),
         (17, 17, 0.3, 0.01),
@@ -194,7 +192,7 @@ def rough_ball(ny, nx, rq=1e-7, width=3.0):
     return rq * z / z.std(), spacing, x[None, :] ** 2 + y[:, None] ** 2
 
 
-@pytest.mark.parametrize(("ny", "nx"), [(64, 64), (65, 65), (48, 70), (71, 64), (104, 81)])
+@pytest.mark.parametrize(("ny", "nx"), [(64, 64), (65, 65), (48, 70)])
 def test_rough_contacts_are_those_of_polonsky_and_keer(ny, nx):
     heights, spacing, radius_2 = rough_ball(ny, nx)
     found = dry_contact(heights, spacing, RADIUS, LOAD, MODULUS)
@@ -301,7 +299,7 @@ def hard_problem(seed):
 def test_hard_contacts_are_solved_or_said_not_to_be():
     """What must hold at each solution, by the independent deformation; misses have to be rare."""
     missed = 0
-    for seed in range(300):
+    for seed in range(100):
         gap_0, cap, load, scale = hard_problem(seed)
         half_space = HalfSpace(*gap_0.shape, scale, "scipy")
         found = dry_solution(half_space, gap_0, cap, load, np.ones(gap_0.shape), 1e-8, 500)
@@ -315,7 +313,7 @@ def test_hard_contacts_are_solved_or_said_not_to_be():
         solved = lack / half_space.near[0, 0] < 1e-7 * load + 1e-13 * np.abs(gap_0).max() * gap_0.size / scale
         assert solved or not found.converged, seed
         missed += not found.converged
-    assert missed <= 3
+    assert missed <= 1
 
 
 @pytest.mark.filterwarnings("ignore")

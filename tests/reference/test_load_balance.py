@@ -10,7 +10,7 @@ from contact_core.calls.point_contact import point_contact
 from contact_core.film import routes, scaled
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
 
-MODULUS, ALPHA, NODES = 230.47e9, 15e-9, 49
+MODULUS, ALPHA, NODES = 230.47e9, 15e-9, 33
 LIGHT = list(product((0.1, 2.0), (2e-3, 0.05), (1.0, 7.0), (0.3, 2.0)))  # load, speed, Rq / film, ratio of the radii
 HEAVY = [(50.0, 0.3, 0.2, 1.0), (50.0, -0.02, 3.0, 0.5), (50.0, 1e-4, 2.0, 1.0), (20.0, 1.0, 0.0, 3.0)]
 

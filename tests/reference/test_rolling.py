@@ -54,7 +54,7 @@ def test_solved_lines_roll_as_hard_with_what_their_inlet_lacks(load, speed, visc
     assert rolling_line(load, speed, viscosity, RADIUS, MODULUS) == approx(found, rel=0.12)
 
 
-@pytest.mark.parametrize("times_wider", [1, 10])
+@pytest.mark.parametrize("times_wider", [1, pytest.param(10, marks=pytest.mark.long)])
 def test_solved_points_roll_the_harder_the_wider_their_inlet_and_come_near_the_formula(times_wider):
     """What the inlet adds from afar falls as slowly as a logarithm does."""
     step, half, found = 1.2e-5, 16 if times_wider == 1 else 48, []

@@ -38,13 +38,18 @@ def contact(load, material, nodes, **changes):
     return replace(now, **changes), grid, film
 
 
+LOADS = pytest.mark.parametrize(
+    ("load", "material"), [(100.0, 10.0), pytest.param(1000.0, 10.0, marks=pytest.mark.long), (400.0, 5.0)]
+)
+
+
 def centre(now, grid):
     found = solve_film(now, grid, SETTINGS)
     assert found.converged, found.shortfall
     return at_centre(grid, found.gap), found
 
 
-@pytest.mark.parametrize(("load", "material"), [(100.0, 10.0), (1000.0, 10.0), (400.0, 5.0)])
+@LOADS
 def test_a_supply_film_starves_the_contact_as_chevalier_and_others_found(load, material):
     now, grid, _ = contact(load, material, 129, conserving=True)
     flooded, found = centre(now, grid)
@@ -55,7 +60,7 @@ def test_a_supply_film_starves_the_contact_as_chevalier_and_others_found(load, m
         assert starved == approx(supplied_film(flooded, supply, density), rel=0.05)
 
 
-@pytest.mark.parametrize(("load", "material"), [(100.0, 10.0), (1000.0, 10.0), (400.0, 5.0)])
+@LOADS
 def test_a_meniscus_starves_the_contact_as_hamrock_and_dowson_found(load, material):
     now, grid, _ = contact(load, material, 129)
     flooded, _ = centre(now, grid)

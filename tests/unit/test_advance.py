@@ -5,7 +5,7 @@ from dataclasses import asdict, fields, is_dataclass, replace
 
 import numpy as np
 import pytest
-from cheap_scene import CHEAP, cheap
+from cheap_scene import CHEAP, cheap, settled
 from comparison import approx
 
 from contact_core import (
@@ -21,6 +21,7 @@ from contact_core.quantities import LEVELS, TABLE, value_out_of_range
 from contact_core.scene import Case
 
 BARE = CHEAP | {"tribofilm.model": "none"}
+LONG_BLOCKS = {"control__change": "60 nm", "control__longest": "2 h"}
 
 
 def run(scene, op, state, steps):
@@ -51,12 +52,12 @@ def raised(outputs):
 
 
 def test_the_state_given_stays_as_it_was_and_usable():
-    scene, fresh, op = cheap()
-    blank = fresh.to_bytes()
-    used, _ = advance(scene, op, fresh, 30.0)
-    assert fresh.to_bytes() == blank
+    scene, new, op = settled()
+    blank = new.to_bytes()
+    used, _ = advance(scene, op, new, 10.0)
+    assert new.to_bytes() == blank
     before = used.to_bytes()
-    onward, _ = advance(scene, op, used, 90.0)
+    onward, _ = advance(scene, op, used, 10.0)
     assert used.to_bytes() == before
     assert onward.to_bytes() != before
     arrays = list(all_arrays(onward))
@@ -66,14 +67,14 @@ def test_the_state_given_stays_as_it_was_and_usable():
 
 def test_the_same_call_gives_the_same_bits():
     scene, fresh, op = cheap()
-    once, again = (advance(scene, op, fresh, 45.0) for _ in range(2))
+    once, again = (advance(scene, op, fresh, 10.0) for _ in range(2))
     assert once[0].to_bytes() == again[0].to_bytes()
     assert once[1] == again[1]
 
 
 def test_a_step_saved_restored_and_repeated_gives_the_same_bits():
-    scene, fresh, op = cheap()
-    saved, _ = advance(scene, op, fresh, 20.0)
+    scene, new, op = settled()
+    saved, _ = advance(scene, op, new, 10.0)
     data = saved.to_bytes()
     onward, outputs = advance(scene, replace(op, load=70.0), saved, 40.0)
     again, outputs_again = advance(scene, replace(op, load=70.0), ContactState.from_bytes(data, scene), 40.0)
@@ -82,18 +83,17 @@ def test_a_step_saved_restored_and_repeated_gives_the_same_bits():
 
 
 def test_what_another_state_did_in_between_leaves_no_trace():
-    scene, fresh, op = cheap()
-    saved, _ = advance(scene, op, fresh, 20.0)
-    expected, _ = advance(scene, op, saved, 40.0)
+    scene, saved, op = settled()
+    expected, _ = advance(scene, op, saved, 20.0)
     other, other_fresh, other_op = cheap(surface_2__seed=9)
-    for load in (10.0, 20.0, 30.0, 40.0, 50.0):
+    for load in (10.0, 50.0):
         solve(other, replace(other_op, load=load), other_fresh)
-    assert advance(scene, op, saved, 40.0)[0].to_bytes() == expected.to_bytes()
+    assert advance(scene, op, saved, 20.0)[0].to_bytes() == expected.to_bytes()
 
 
 def test_no_time_changes_nothing_but_the_outputs():
-    scene, fresh, op = cheap()
-    first, outputs = advance(scene, op, fresh, 0.0)
+    scene, first, op = settled()
+    outputs = first.outputs
     second, again = advance(scene, op, first, 0.0)
     assert again == outputs
     assert second.to_bytes() == first.to_bytes()
@@ -107,9 +107,9 @@ def test_no_time_changes_nothing_but_the_outputs():
 
 
 def test_small_steps_and_one_large_step_end_alike():
-    scene, fresh, op = cheap()
-    few, a = run(scene, op, fresh, [150.0])
-    many, b = run(scene, op, fresh, [5.0] * 30)
+    scene, new, op = settled()
+    few, a = run(scene, op, new, [50.0])
+    many, b = run(scene, op, new, [5.0] * 10)
     assert many.time == approx(few.time, rel=1e-12)
     last, same = b[-1], a[-1]
     for name in ("tribofilm_1", "tribofilm_2", "wear_volume_1", "wear_volume_2"):
@@ -119,9 +119,9 @@ def test_small_steps_and_one_large_step_end_alike():
 
 
 def test_a_split_within_a_block_changes_nothing_but_round_off():
-    scene, fresh, op = cheap(control__change="100 nm")
-    whole, _ = advance(scene, op, fresh, 1.0)
-    split, _ = run(scene, op, fresh, [0.25] * 4)
+    scene, new, op = settled(control__change="100 nm")
+    whole, _ = advance(scene, op, new, 1.0)
+    split, _ = run(scene, op, new, [0.25] * 4)
     for one, other in zip(whole.bodies, split.bodies, strict=True):
         assert other.growth == approx(one.growth, rel=1e-12, abs=0.0)
         assert other.removal == approx(one.removal, rel=1e-12, abs=0.0)
@@ -130,15 +130,15 @@ def test_a_split_within_a_block_changes_nothing_but_round_off():
 
 
 def test_wear_volume_is_the_integral_of_the_wear_rate():
-    scene, state, op = cheap()
-    steps = (0.3, 1.0, 7.0, 60.0, 200.0)
+    scene, state, op = settled()
+    steps = (0.3, 1.0, 7.0, 30.0)
     state, found = run(scene, op, state, steps)
     for name in ("1", "2"):
         total = sum(getattr(outputs, f"wear_rate_{name}") * dt for outputs, dt in zip(found, steps, strict=True))
         assert getattr(found[-1], f"wear_volume_{name}") == approx(total, rel=1e-12, abs=0.0)
 
 
-@pytest.mark.parametrize(("speed_1", "speed_2"), [(0.2475, 0.2525), (0.2, 0.3), (-0.3, -0.2)])
+@pytest.mark.parametrize(("speed_1", "speed_2"), [(0.2475, 0.2525), (-0.3, -0.2)])
 def test_archards_volume_is_met_by_both_moving_bodies(speed_1, speed_2):
     """dV/dt = K W_c W |u_s| / H, whoever wears and however often a point passes."""
     scene, state, op = cheap(BARE)
@@ -173,7 +173,7 @@ def test_wear_depths_stand_as_the_load_cycles():
 
 
 def test_two_hours_of_case_a_are_28361_and_7419_load_cycles():
-    scene, state, op = cheap(control__change="60 nm")
+    scene, state, op = cheap(**LONG_BLOCKS)
     state, outputs = advance(scene, op, state, 7200.0)
     assert round(outputs.load_cycles_1) == 28361
     assert round(outputs.load_cycles_2) == 7419
@@ -199,7 +199,7 @@ def test_friction_opposes_sliding_and_is_odd():
 
 
 def test_tribofilm_stays_between_nothing_and_its_full_thickness():
-    scene, state, op = cheap(control__change="60 nm")
+    scene, state, op = settled(**LONG_BLOCKS)
     for dt in (1.0, 100.0, 3000.0, 20000.0):
         state, outputs = advance(scene, op, state, dt)
         for body in state.bodies:
@@ -221,20 +221,20 @@ def test_without_additive_no_growth_law_runs_and_no_array_changes():
 
 def test_without_wear_nothing_is_worn():
     scene, state, op = cheap(wear__model="none")
-    state, outputs = advance(scene, op, state, 100.0)
+    state, outputs = advance(scene, op, state, 10.0)
     assert not state.bodies[0].wear.any()
     assert outputs.wear_rate_1 == outputs.wear_volume_2 == outputs.wear_depth_1 == 0.0
     assert outputs.tribofilm_1 > 0.0
 
 
 def test_additive_lowers_wear():
-    with_film, without = (advance(scene, op, state, 600.0)[1] for scene, state, op in (cheap(), cheap(BARE)))
+    with_film, without = (advance(scene, op, state, 200.0)[1] for scene, state, op in (cheap(), cheap(BARE)))
     assert with_film.wear_rate_1 < 0.95 * without.wear_rate_1
 
 
 def test_no_load_rests_the_surfaces_and_the_contact_comes_back():
-    scene, state, op = cheap()
-    state, _ = advance(scene, op, state, 30.0)
+    scene, state, op = settled()
+    state, _ = advance(scene, op, state, 1.0)
     lifted, outputs = advance(scene, replace(op, load=0.0), state, 50.0)
     assert finite(outputs)
     assert outputs.friction_force == outputs.friction_coefficient == outputs.contact_load_ratio == 0.0
@@ -310,7 +310,7 @@ def test_a_change_of_any_input_asks_for_a_new_solution(name, factor):
 
 
 def test_the_suggested_step_is_when_the_next_solution_is_due():
-    scene, state, op = cheap()
+    scene, state, op = settled()
     state, outputs = advance(scene, op, state, 1.0)
     solved = outputs.blocks_mixed
     assert advance(scene, op, state, 0.85 * outputs.suggested_step)[1].blocks_mixed == solved
@@ -321,7 +321,7 @@ def test_the_suggested_step_is_when_the_next_solution_is_due():
     ("name", "value"), [("load", -1.0), ("load", np.nan), ("speed_1", np.inf), ("temperature", 100.0)]
 )
 def test_an_input_that_cannot_be_used_is_refused_by_name_and_the_state_goes_on(name, value):
-    scene, state, op = cheap()
+    scene, state, op = settled()
     state, _ = advance(scene, op, state, 5.0)
     before = state.to_bytes()
     with pytest.raises(OperatingPointError, match=rf"^{name} = "):
@@ -338,8 +338,8 @@ def test_a_step_that_cannot_be_used_is_refused(dt):
 
 
 def test_flags_tell_what_is_uncertain():
-    scene, state, op = cheap()
-    plain = raised(advance(scene, op, state, 0.0)[1])
+    scene, state, op = settled()
+    plain = raised(state.outputs)
     assert RangeFlag.INLET_UNRESOLVED in plain
     assert not plain & (
         RangeFlag.TRIBOFILM_TEMPERATURE | RangeFlag.FEW_NODES | RangeFlag.LAMBDA_CAPPED | RangeFlag.DOMAIN_EDGE
@@ -371,8 +371,8 @@ def test_solutions_cut_short_are_flagged():
 
 
 def test_each_body_keeps_its_own_surface():
-    scene, state, op = cheap()
-    state, outputs = advance(scene, op, state, 200.0)
+    scene, state, op = settled()
+    state, outputs = advance(scene, op, state, 100.0)
     one, two = state.bodies
     assert not np.array_equal(one.wear, two.wear)
     assert not np.array_equal(one.growth, two.growth)
@@ -395,7 +395,7 @@ def test_friction_falls_with_entrainment_from_boundary_to_full_film():
 
 
 def test_bulk_temperatures_are_the_oils():
-    scene, state, op = cheap()
+    scene, state, op = settled()
     outputs = advance(scene, replace(op, temperature=362.0), state, 1.0)[1]
     assert outputs.temperature_1 == outputs.temperature_2 == 362.0
 
@@ -408,11 +408,11 @@ def test_a_temperature_where_the_film_constants_do_not_hold_is_refused():
 
 def test_a_change_of_direction_is_survived_with_finite_outputs():
     scene, state, op = cheap()
-    for u in (0.25, 0.01, 0.0, -0.01, -0.25, 0.25):
+    for u in (0.25, 0.0, -0.01, 0.25):
         state, outputs = advance(scene, OperatingPoint(op.load, 0.99 * u, 1.01 * u, op.temperature), state, 2.0)
         assert finite(outputs)
         assert outputs.power_loss >= 0.0
-    assert state.time == 12.0
+    assert state.time == 8.0
 
 
 @pytest.mark.parametrize(("load", "speed"), [("2 N", 5.0), ("0.5 N", 20.0), ("5 N", 10.0)])
@@ -437,7 +437,7 @@ def test_nothing_grows_or_wears_in_pure_rolling():
     assert outputs.tribofilm_1 == outputs.tribofilm_2 == outputs.wear_volume_1 == outputs.wear_volume_2 == 0.0
 
 
-@pytest.mark.parametrize(("speed_2", "told"), [(0.1, False), (0.095, False), (0.08, True), (0.0, False)])
+@pytest.mark.parametrize(("speed_2", "told"), [(0.095, False), (0.08, True), (0.0, False)])
 def test_a_body_too_slow_to_show_its_track_is_told(speed_2, told):
     scene, state, op = cheap()
     _, outputs = advance(scene, replace(op, speed_1=0.1, speed_2=speed_2), state, 0.0)
@@ -475,7 +475,7 @@ def test_every_output_stays_within_its_declared_range_whichever_way_the_bodies_m
     scene, fresh, op = cheap()
     scene, signs = scene.at_level(level), {}
     for one, two, spin in ((0.2, 0.1, 0.0), (-0.2, -0.1, 0.0), (0.1, 0.2, 50.0), (-0.1, -0.2, -50.0)):
-        _, outputs = advance(scene, replace(op, speed_1=one, speed_2=two, spin=spin), fresh, 30.0)
+        _, outputs = advance(scene, replace(op, speed_1=one, speed_2=two, spin=spin), fresh, 5.0)
         for name, value in asdict(outputs).items():
             assert list(value_out_of_range(TABLE[name], value)) == []
             signs.setdefault(name, set()).add(math.copysign(1.0, value) if value else 0.0)

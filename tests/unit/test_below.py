@@ -284,7 +284,7 @@ def test_damage_under_constant_cycles_is_their_number_times_that_of_one():
 
 
 def test_wear_takes_damage_away():
-    gone = [run(TIRED, 60.0, 60.0, wear__bare=bare)[2][-1] for bare in ("1e-9", "3e-4")]
+    gone = [run(TIRED, 30.0, 30.0, wear__bare=bare)[2][-1] for bare in ("1e-9", "3e-4")]
     (_, kept), (_, worn) = gone
     assert worn.wear_depth_1 > 100.0 * kept.wear_depth_1
     assert worn.damage_1 < 0.9 * kept.damage_1
@@ -316,8 +316,8 @@ def outputs_of(outputs, name, i):
 def test_pits_that_are_only_counted_change_nothing_but_their_outputs():
     """The contact is that of a scene without fatigue, bit for bit; the area is that of what has failed."""
     tired = TIRED | {"stress.pits": "counted", "fatigue.reference_cycles": "60"}
-    scene, _, counted = run(tired, 30.0, 60.0)
-    _, _, none = run(STRESSED, 30.0, 60.0)
+    scene, _, counted = run(tired, 20.0, 20.0)
+    _, _, none = run(STRESSED, 20.0, 20.0)
     state, outputs = counted[-1]
     for name in (*OLD, *OF_STRESS, "roughness_1", "h_min"):
         assert getattr(outputs, name) == getattr(none[-1][1], name)
@@ -413,7 +413,7 @@ def test_damage_stays_within_its_stated_error_when_blocks_are_half_as_long():
 def test_the_error_by_few_instants_covers_what_many_find_and_a_tenth_of_it_would_not():
     def after(instants):
         given = {"stress__instants": instants, "control__dry_instants": instants, "control__longest": "20 s"}
-        _, _, found = run(TIRED, 40.0, **given)
+        _, _, found = run(TIRED, 20.0, **given)
         return found[-1]
 
     (state, few), (_, many) = after(8), after(32)

@@ -81,7 +81,7 @@ def bound(changes):
 def test_a_marched_smooth_film_is_the_steady_one():
     case = bound({"surface_1.rq": "0 m", "surface_2.rq": "0 m"})
     state, steady = begin(case, initial_state(case.scene))
-    _, fields = marched(case, state, 200)
+    _, fields = marched(case, state, 100)
     middle = steady.gap.shape[0] // 2
     assert fields.converged
     assert fields.gap[middle, middle] == approx(steady.gap[middle, middle], rel=0.04)
@@ -91,7 +91,7 @@ def test_without_sliding_rough_bodies_keep_the_oil_that_is_between_their_asperit
     """Bodies of one speed roll their pattern of oil through the contact: gap and pressure only move along."""
     case = bound({"operation.speed_1": "0.25 m/s", "operation.speed_2": "0.25 m/s"})
     state, _ = begin(case, initial_state(case.scene))
-    state, before = marched(case, state, 60)
+    state, before = marched(case, state, 40)
     _, after = marched(case, state, 4)
     inner = np.abs(before.x) < 0.5 * case.hertz.a
     one = before.gap[28:37][:, inner]

@@ -45,7 +45,7 @@ def rates_of(law):
     return growth[0] / law.full_thickness / tiny[0], losing, limit
 
 
-def marched(law, film, exposing, abrading, steps=20_000):
+def marched(law, film, exposing, abrading, steps=2_000):
     """The film [m], and what grew and what rubbing took, after a unit of time, by the midpoint rule on the rates."""
     per_exposure, own, limit = rates_of(law)
     forming, losing = per_exposure * exposing, own * exposing

@@ -24,11 +24,15 @@ def read_only(tmp_path: Path) -> Path:
     return copy.parent
 
 
-def imported(site: Path, temporary: Path, script: str = "from contact_core.kernels import mixed") -> list[str]:
-    """What a process prints that finds no place but the temporary folder."""
+FOR_CHILDREN = "import os; folder = os.environ['NUMBA_CACHE_DIR']"
+OF_NUMBA = "from contact_core.kernels import mixed; import numba; folder = numba.config.CACHE_DIR"
+
+
+def imported(site: Path, temporary: Path, told: str = FOR_CHILDREN, **more: str) -> list[str]:
+    """The folder and the notice that a process prints which finds no place but the temporary folder."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("NUMBA", "XDG", "PYTHON"))}
-    environment = kept | {"HOME": "/dev/null", "TMPDIR": str(temporary), "PYTHONPATH": str(site)}
-    code = f"{script}\nimport numba; from contact_core.kernels import NOTICE; print(numba.config.CACHE_DIR, NOTICE)"
+    environment = kept | more | {"HOME": "/dev/null", "TMPDIR": str(temporary), "PYTHONPATH": str(site)}
+    code = f"from contact_core.kernels import NOTICE; {told}; print(folder, NOTICE)"
     command = [sys.executable, "-c", code]
     found = subprocess.run(command, cwd=site, env=environment, capture_output=True, text=True)
     return [found.stdout.strip(), found.stderr.strip()]
@@ -37,7 +41,7 @@ def imported(site: Path, temporary: Path, script: str = "from contact_core.kerne
 def test_the_kernels_are_kept_in_a_private_temporary_folder_which_is_said(read_only: Path, tmp_path: Path) -> None:
     temporary = tmp_path / "temporary"
     temporary.mkdir()
-    said, warned = imported(read_only, temporary)
+    said, warned = imported(read_only, temporary, OF_NUMBA)
     (folder,) = temporary.iterdir()
     assert said.startswith(f"{folder} Neither the folder of contact_core")
     assert "Set NUMBA_CACHE_DIR to a folder that lasts" in warned
@@ -59,7 +63,6 @@ def test_a_folder_that_others_can_write_is_not_taken(read_only: Path, tmp_path: 
 
 def test_a_place_that_the_user_has_chosen_stands(read_only: Path, tmp_path: Path) -> None:
     (tmp_path / "own").mkdir()
-    os_environ = f"import os; os.environ['NUMBA_CACHE_DIR'] = {str(tmp_path / 'own')!r}"
-    said, warned = imported(read_only, tmp_path, f"{os_environ}\nfrom contact_core.kernels import mixed")
+    said, warned = imported(read_only, tmp_path, NUMBA_CACHE_DIR=str(tmp_path / "own"))
     assert said == str(tmp_path / "own")
     assert warned == ""

@@ -272,7 +272,7 @@ def test_a_cycle_counts_passes_and_warms_films_by_its_flash_and_its_outputs_are_
     assert cold < grown < warm
 
 
-@pytest.mark.parametrize("flux", ["fitted", "upwind"])
+@pytest.mark.parametrize("flux", ["fitted", pytest.param("upwind", marks=pytest.mark.long)])
 def test_solids_of_a_slower_rough_body_carry_about_as_much_as_those_of_a_faster_one(flux):
     """Oil that moved by more than a node in an instant halved their share, at any excess of its speed."""
     scene, state, op = cheap(surface_1__rq="0 nm", film__flux=flux)

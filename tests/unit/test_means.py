@@ -86,7 +86,7 @@ def grown():
     return scene, advance(scene, op, state, 1800.0)[0], op
 
 
-@pytest.mark.parametrize("srr", [0.02, -0.5, 2.0])
+@pytest.mark.parametrize("srr", [0.02, -2.0])
 def test_friction_has_no_jump_over_six_decades_of_speed(grown, srr):
     scene, state, op = grown
 
@@ -99,7 +99,7 @@ def test_friction_has_no_jump_over_six_decades_of_speed(grown, srr):
     assert fine < 0.3 * coarse  # a jump would stay as it is, a slope becomes a quarter
 
 
-@pytest.mark.parametrize("entrainment", [0.0, 1e-4, 0.25, 5.0])
+@pytest.mark.parametrize("entrainment", [0.0, 0.25])
 def test_friction_goes_through_zero_sliding_without_a_jump_and_is_odd(grown, entrainment):
     scene, state, op = grown
     slides = np.linspace(-3e-6, 3e-6, 601)
@@ -366,8 +366,8 @@ def test_warm_bodies_do_not_care_how_the_time_is_cut():
     }
     scene, state, op = fast(FAST | changes)
     at, once, often = point(op, 1.0, 1.0), state, state
-    once, found = advance(scene, at, once, 600.0)
-    for _ in range(60):
+    once, found = advance(scene, at, once, 200.0)
+    for _ in range(20):
         often, last = advance(scene, at, often, 10.0)
     assert found.temperature_2 == approx(last.temperature_2, abs=0.2)
     assert found.temperature_2 > op.temperature + 1.0

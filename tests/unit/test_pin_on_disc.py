@@ -9,6 +9,7 @@ from contact_core import RangeFlag, Scene, advance, initial_state
 from contact_core.reference.evolution import archard_depth
 
 COARSE = {"film.points": "49"}
+OF_HOUR = pytest.mark.long  # the same of a coarser pin: test_resting
 
 
 @pytest.fixture(scope="module")
@@ -31,6 +32,7 @@ def test_the_scene_is_one_body_at_rest_on_a_track_of_its_radius():
     assert scene.operation.duration == 3600.0
 
 
+@OF_HOUR
 def test_the_scar_of_an_hour_stays_on_the_grid(hour):
     scene, state, rows = hour
     assert not any(RangeFlag(row.range_flags) & RangeFlag.DOMAIN_EDGE for row in rows)
@@ -41,6 +43,7 @@ def test_the_scar_of_an_hour_stays_on_the_grid(hour):
     assert state.rows == scene.rows
 
 
+@OF_HOUR
 def test_the_pin_loses_archards_volume_between_those_of_bare_and_of_covered_steel(hour):
     scene, _, rows = hour
     op, wear, hardness = scene.operation.point, scene.wear, scene.plasticity.hardness
@@ -50,6 +53,7 @@ def test_the_pin_loses_archards_volume_between_those_of_bare_and_of_covered_stee
     assert max(rows[-1].wear_volume_1, rows[-1].wear_volume_2) < bare
 
 
+@OF_HOUR
 def test_the_scar_is_the_cap_of_its_volume_under_an_even_pressure(hour):
     scene, state, rows = hour
     load = rows[-1].contact_load_ratio * scene.operation.load
@@ -70,6 +74,7 @@ def test_bodies_of_one_wear_coefficient_lose_archards_volume_of_the_load_that_so
     assert outputs.wear_volume_1 == approx(expected, rel=0.05)
 
 
+@OF_HOUR
 def test_the_regression_level_agrees_within_what_it_states_and_says_that_it_is_outside_its_fit(hour):
     rows = hour[2]
     scene = Scene.from_toml("pin_on_disc").at_level("regression")

@@ -6,7 +6,7 @@ from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
-from cheap_scene import CHEAP, cheap
+from cheap_scene import CHEAP, cheap, settled
 from comparison import HARD, approx
 
 from contact_core import ContactState, OperatingPointError, RangeFlag, Scene, advance, initial_state, solve
@@ -14,7 +14,7 @@ from contact_core.reference import SmoothContact, nijenbanning_venner_moes
 
 LEVELS = ("deterministic", "regression")
 SMOOTH = HARD | {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}
-RADII = [(5e-3, 5e-3), (11e-3, 11e-3), (8e-3, 6e-3), (5e-3, 9e-3)]
+RADII = [(11e-3, 11e-3), (8e-3, 6e-3), (5e-3, 9e-3)]
 
 
 def at_level(level, changes=CHEAP):
@@ -46,7 +46,7 @@ def test_a_solution_at_given_radii_is_that_of_a_scene_with_these_radii(radii, ch
 @pytest.mark.parametrize("level", LEVELS)
 def test_the_contacts_outputs_are_those_of_a_scene_with_these_radii(level, radii):
     scene, fresh, op = at_level(level, CHEAP | {"heat.inlet_shear": "gupta"})
-    state, before = advance(scene, op, fresh, 20.0)
+    state, before = advance(scene, op, fresh, 1.0)
     state = replace(state, solved_for=None)  # a scene of other radii would take the contact for solved
     given, own = advance(scene, at(op, *radii), state, 0.0)[1], advance(made_with(scene, *radii), op, state, 0.0)[1]
     of_contact = {
@@ -85,7 +85,7 @@ def test_the_scenes_own_radii_are_as_good_as_none(level):
     scene, fresh, op = at_level(level)
     named = at(op, *scene.radii(scene.operation.point))
     one, other = fresh, fresh
-    for dt, load in ((0.0, 70.0), (20.0, 70.0), (20.0, 40.0)):
+    for dt, load in ((0.0, 70.0), (5.0, 70.0), (5.0, 40.0)):
         one, said = advance(scene, replace(op, load=load), one, dt)
         other, again = advance(scene, replace(named, load=load), other, dt)
         assert said == again
@@ -96,10 +96,10 @@ def test_the_scenes_own_radii_are_as_good_as_none(level):
 def test_a_state_alone_decides_what_follows_however_radii_change(level):
     scene, fresh, op = at_level(level)
     points = [at(op, radius) for radius in (6e-3, 10e-3, 7e-3)]
-    saved, _ = advance(scene, points[0], fresh, 20.0)
+    saved, _ = advance(scene, points[0], fresh, 1.0)
     data = saved.to_bytes()
-    first = [advance(scene, point, saved, 10.0) for point in points]
-    second = [advance(scene, point, ContactState.from_bytes(data, scene), 10.0) for point in reversed(points)]
+    first = [advance(scene, point, saved, 5.0) for point in points]
+    second = [advance(scene, point, ContactState.from_bytes(data, scene), 5.0) for point in reversed(points)]
     for (state, outputs), (again, outputs_again) in zip(first, reversed(second), strict=True):
         assert outputs == outputs_again
         assert state.to_bytes() == again.to_bytes()
@@ -118,13 +118,12 @@ def test_a_contact_is_solved_again_when_radii_have_changed_by_more_than_the_scen
             assert after.blocks_mixed == before.blocks_mixed + 1.0
 
 
-@pytest.mark.parametrize("factor", [0.4, 0.8, 1.2])
+@pytest.mark.parametrize("factor", [0.4, 1.2])
 def test_the_march_goes_on_through_a_jump_of_the_radii(factor):
-    scene, fresh, op = cheap()
-    state, _ = advance(scene, op, fresh, 20.0)
+    scene, state, op = settled()
     radii = (factor * radius for radius in scene.radii(scene.operation.point))
-    state, jumped = advance(scene, at(op, *radii), state, 20.0)
-    back = advance(scene, op, state, 20.0)[1]
+    state, jumped = advance(scene, at(op, *radii), state, 1.0)
+    back = advance(scene, op, state, 1.0)[1]
     assert jumped.unconverged == jumped.blocks_fallback == back.unconverged == back.blocks_fallback == 0.0
     assert jumped.approach == approx(scene.hertz_at(at(op, factor * 0.01)).approach, rel=0.1)
 
@@ -193,8 +192,8 @@ def test_the_regression_level_needs_no_grid_but_bodies_that_do_not_yield():
 
 
 def test_the_regression_level_goes_on_from_patches_and_back_under_other_radii():
-    scene, fresh, op = cheap()
-    state, before = advance(scene, op, fresh, 60.0)
+    scene, state, op = settled()
+    state, before = advance(scene, op, state, 20.0)
     quick = scene.at_level("regression")
     quickly, told = advance(quick, at(op, 7e-3), state, 0.0)
     assert told.tribofilm_2 == approx(before.tribofilm_2, rel=1e-12)

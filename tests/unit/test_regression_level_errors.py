@@ -56,7 +56,7 @@ def compared(rows):
     return found
 
 
-@pytest.mark.parametrize("name", ["beyond line 3", "beyond circle 4"])
+@pytest.mark.parametrize("name", ["beyond line 3", pytest.param("beyond circle 4", marks=pytest.mark.long)])
 def test_the_deterministic_level_still_says_what_is_stored(rows, name):
     scene, row = scene_of(rows[name]), rows[name]
     _, outputs = advance(scene, OperatingPoint(**row["point"]), initial_state(scene), 0.0)

@@ -39,15 +39,13 @@ def checked(op, outputs, *, equal_bodies=True):
 
 
 def points(op):
-    """A duty: the point of reference, sliding the other way, a slow drift, pure rolling, rest of one body, spin."""
+    """A duty: the point of reference, sliding the other way, pure rolling, rest of one body, spin, no load."""
     slower = replace(op, speed_1=op.speed_2, speed_2=op.speed_1)
     return [
         op,
         slower,
-        replace(slower, speed_1=slower.speed_1 * 1.0001),
         replace(op, speed_1=op.speed_2),
         replace(op, speed_2=0.0),
-        replace(op, load=0.5 * op.load, temperature=op.temperature + 2.0),
         replace(op, spin=30.0),
         replace(op, speed_1=-op.speed_2),
         replace(op, load=0.0),
@@ -75,7 +73,7 @@ def test_every_row_of_a_changing_duty_adds_up_and_opposes_the_sliding(level, cha
     scene, state, op = cheap(COARSE | {"tribofilm.beyond_fit": "extrapolate"} | changes)
     scene, equal = scene.at_level(level), "heat.model" not in changes
     for now in points(op):
-        for dt in (0.0, 50.0):
+        for dt in (0.0, 2.0):
             state, outputs = advance(scene, now, state, dt)
             checked(now, outputs, equal_bodies=equal)
 
@@ -128,6 +126,6 @@ def test_oil_of_a_dry_instant_has_the_friction_over_load_that_was_measured():
 def test_rows_of_a_shipped_scene_add_up(name, level):
     scene = Scene.from_toml(name, SMALL_SHIPPED).at_level(level)
     state, op = initial_state(scene), scene.operation.point
-    for dt in (0.0, 30.0):
+    for dt in (0.0, 5.0):
         state, outputs = advance(scene, op, state, dt)
         checked(op, outputs)

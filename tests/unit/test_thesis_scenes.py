@@ -90,6 +90,7 @@ def test_the_ball_wears_almost_four_times_as_deep_as_the_disc():
     assert out.wear_depth_1 / out.wear_depth_2 == approx(3.8, rel=0.15)
 
 
+@pytest.mark.long
 def test_each_body_wears_more_the_faster_it_moves():
     """Figures 7-4, 7-5 and 7-8, by 10 % either way; wear by |u1 - u2| would be the same at both."""
     slow, fast = first_minutes(-0.1)[-1], first_minutes(0.1)[-1]

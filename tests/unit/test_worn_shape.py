@@ -27,11 +27,13 @@ def test_the_same_scar_matters_more_to_a_smaller_contact() -> None:
     """It is deep for the contact at a light load alone."""
     scene = Scene.from_toml("mtm_zddp").at_level("regression")
     point = scene.operation.point
-    scar, size = 0.1 * scene.hertz(point.load).a, 60.0
-    state = initial_state(scene)
-    while (found := advance(scene, point, state, size)[1]).wear_depth_1 < 0.9 * scar:
-        size *= 1.1
-    state, found = advance(scene, point, state, size)
+    scar, size = 0.1 * scene.hertz(point.load).a, 3600.0
+    new = initial_state(scene)
+    while True:
+        state, found = advance(scene, point, new, size)
+        if 0.9 * scar < found.wear_depth_1 < scar:
+            break
+        size *= 0.95 * scar / found.wear_depth_1
     _, lighter = advance(scene, replace(point, load=0.2 * point.load), state, 0.0)
     assert RangeFlag.WORN_SHAPE not in RangeFlag(found.range_flags)
     assert RangeFlag.WORN_SHAPE in RangeFlag(lighter.range_flags)

@@ -151,14 +151,15 @@ class _Held(Iteration):
         bodies = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
         self.solid[self.held] = False
         film = (self.h, self.mass, *flow.nodes)
-        reynolds.film_pass(p, self.f, self.solid, *bodies, *q.layer, *q.tables, *film)
+        reynolds.film_pass(p, self.f, self.solid, *bodies, *q.layer, *q.tables, *film, False, None)
         flow.measure()
 
     def _correct_gap(self) -> None:
         q, flow = self.problem, self.flow
         scales = (*q.layer, *q.terms, q.compliance, self.patch)
         state = (self.p, self.f, q.cap, self.solid, self.h, self.mass, q.mass_old, *flow.through)
-        self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, self.r, self.stiff, self.dh, self.sums)
+        out = (self.r, self.stiff, self.dh, self.sums)
+        self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, None, None, 1)
         if q.wrapped:
             wrap(self.solid)
 
@@ -171,7 +172,7 @@ class _Held(Iteration):
         """Choose the nodes that are held, and lead them to where they rest."""
         q, p, gain = self.problem, self.p, np.zeros_like(self.p)
         nowhere = np.zeros_like(self.solid)
-        reynolds.residual(self.f, nowhere, self.mass, q.mass_old, *self.flow.through, *q.terms, gain)
+        reynolds.residual(self.f, nowhere, self.mass, q.mass_old, *self.flow.through, *q.terms, gain, None, 1)
         within = (p > 0.0) & (p < q.cap)
         released = self.held & ((gain > 0.0) | ~within)
         self.waits = np.where(released, _UNTIL_HELD, np.maximum(self.waits - 1, 0))

@@ -38,9 +38,9 @@ def correct_gap(  # type: ignore[no-untyped-def]
     stiff,
     dh,
     sums,
-    share=None,
-    filling=None,
-    first=1,
+    share,
+    filling,
+    first,
 ):
     """Compute the residual r, the stiff zone, and the change of gap dh in it that removes the residual.
 

@@ -177,7 +177,7 @@ class _Film:
         """Compute the net inflow of every node that is full and not `solid`."""
         q, carried = self.problem, self.carried
         flux = self.flow.carried if carried is None else carried.flux
-        filling = () if carried is None else (carried.filling, carried.first)
+        filling = (None, 1) if carried is None else (carried.filling, carried.first)
         reynolds.residual(self.f, solid, self.mass, q.mass_old, *self.flow.faces, flux, *q.terms, out, *filling)
 
     def _pass(self) -> None:
@@ -195,7 +195,8 @@ class _Film:
         if (carried := self.carried) is not None:
             full, flux, first = carried.full, carried.flux, carried.first
             cavities.close_inlet(p, f, solid, q.first)
-        reynolds.film_pass(p, f, solid, q.undeformed, deformation, self.rigid, *oil, self.h, full, *flow.nodes)
+        bodies = (q.undeformed, deformation, self.rigid)
+        reynolds.film_pass(p, f, solid, *bodies, *oil, self.h, full, *flow.nodes, False, None)
         solid &= self.inner & (room > 0.0) if q.depth > 0.0 else self.inner  # the edge does not touch
         if q.wrapped:
             wrap(solid)

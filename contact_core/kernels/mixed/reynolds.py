@@ -46,8 +46,8 @@ def film_pass(  # type: ignore[no-untyped-def]
     rho,
     fluid,
     driven,
-    lumped=False,
-    ruled=None,
+    lumped,
+    ruled,
 ):
     """Compute gap, new solid contacts, full mass and the nodes' properties of `flow` from the pressure.
 
@@ -179,7 +179,7 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
 
 
 @jit
-def residual(f, solid, mass, mass_old, ex, ey, flux, per_dt, wedge, dx, r, filling=None, first=1):  # type: ignore[no-untyped-def]
+def residual(f, solid, mass, mass_old, ex, ey, flux, per_dt, wedge, dx, r, filling, first):  # type: ignore[no-untyped-def]
     """Compute the net inflow of mass per area at inner nodes; zero on solid contacts, in cavities and on the edge."""
     ny, nx = f.shape
     per_dx2 = 1.0 / (dx * dx)
