@@ -10,11 +10,12 @@ from benchmarks.fmu import native_scenes
 from benchmarks.fmu.native_contact import NativeContact, bits, differences, tolerance
 from contact_core import Scene
 from contact_core.errors import SceneError
-from fmu_src.native import files
+from fmu_src.native import files, program
 from fmu_src.native.build import WARNINGS
 
 pytestmark = [pytest.mark.fmu, pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")]
 
+LONG = pytest.mark.long
 RUNS, STEPS = 4, 8
 ZIG = (sys.executable, "-m", "ziglang", "cc", "-O2")
 
@@ -22,7 +23,7 @@ ZIG = (sys.executable, "-m", "ziglang", "cc", "-O2")
 # options of tribofilms that other scenes have with another law, and all else that is in them
 FOUND_ELSEWHERE = {"tribofilm6", "tribofilm8", "tribofilm9", "tribofilm11", "tribofilm13"}
 SCENES = [
-    pytest.param(each, id=name, marks=pytest.mark.long if seed or FOUND_ELSEWHERE & {*name.split()} else ())
+    pytest.param(each, id=name, marks=LONG if seed or FOUND_ELSEWHERE & {*name.split()} else ())
     for seed in (0, 1)
     for name, each in native_scenes.selection(seed)
 ]
@@ -77,7 +78,7 @@ def test_radii_may_be_rounded_in_other_units(ball):
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"stress.set": "bearing_52100", "stress.layers": "64"}, "Lower stress.layers"),
+        pytest.param({"stress.set": "bearing_52100", "stress.layers": "64"}, "Lower stress.layers", marks=LONG),
         ({"film.model": "deterministic"}, "film.model = 'regression'"),
     ],
 )
@@ -87,7 +88,12 @@ def test_scenes_without_c_are_refused_with_a_way_out(changes, said):
         files.contact(scene)
 
 
-LONG = pytest.mark.long
+def test_arrays_that_take_more_stack_together_than_every_host_has_are_refused(monkeypatch):
+    inner = "static void inner(void)\n{\n    double own[60000];\n}"
+    outer = "static void outer(void)\n{\n    double own[60000];\n    inner();\n}"
+    monkeypatch.setattr(program, "translated", lambda *_: (None, [inner, outer]))
+    with pytest.raises(SceneError, match="Lower stress"):
+        files.contact(native_scenes.scene_of({"surface_1.rq": "123 nm"}))
 
 
 @pytest.mark.parametrize(
