@@ -34,7 +34,7 @@ from .results import (
 )
 from .sources import about, closure_of, expression_of, is_compiled, is_straight, method_after, statements_of
 from .units import Text, Unit, matched, template_of, unique
-from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
+from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, numbers, replaced, signature
 
 _COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 _CORE, _LAWS, _OF_LAYERS = "contact_core.", "contact_core.laws.", "contact_core.laws.stress"
@@ -82,12 +82,12 @@ class Entry:
     @property
     def returns(self) -> int:
         """How many numbers it returns beside arrays; one is no struct."""
-        return sum(1 for _, number in leaves(self.result) if "[" not in number.kind) if self.name else 0
+        return sum(1 for number in numbers(self.result) if "[" not in number.kind) if self.name else 0
 
     @property
     def arrays(self) -> list[Num]:
         """Arrays that it sets."""
-        return [number for _, number in leaves(self.result) if "[" in number.kind] if self.name else []
+        return [number for number in numbers(self.result) if "[" in number.kind] if self.name else []
 
     @staticmethod
     def place(number: Num, inputs: Sequence[str], constants: Collection[str] = ()) -> str:
@@ -322,11 +322,11 @@ class Translator:
         unit.returned.append(grids.settled(unit, value, "found") if unit.scratch else value)
         if unit.scratch:
             return
-        wanted = [not number.text for _, number in leaves(unit.template)]
-        numbers = [each for each, want in zip(matched(value, unit.template), wanted, strict=True) if want]
+        wanted = [not number.text for number in numbers(unit.template)]
+        given = [each for each, want in zip(matched(value, unit.template), wanted, strict=True) if want]
         fields = wanted_fields(unit.template, unit.part_names)
-        members = [(field, number) for field, number in zip(fields, numbers, strict=True) if not is_array(number)]
-        for out, number in zip(unit.outs, filter(is_array, numbers), strict=True):
+        members = [(field, number) for field, number in zip(fields, given, strict=True) if not is_array(number)]
+        for out, number in zip(unit.outs, filter(is_array, given), strict=True):
             grids.give(unit, out, number)
         if not members:
             unit.emit(code.Do("return;"))
@@ -351,7 +351,7 @@ class Translator:
             closure.path,
             signature(bound),
             signature(closure),
-            _alike([number.text for _, number in leaves((bound, closure))]),
+            _alike([number.text for number in numbers((bound, closure))]),
         )
         if key not in self._cache:
             self._kept.append((closure, bound))

@@ -215,10 +215,10 @@ def _name(name: str) -> str:
     return f"part_{found}" if found[0].isdigit() else found
 
 
-def unique(name: str, *taken: Collection[str]) -> str:
+def unique(name: str, taken: Collection[str], others: Collection[str] = ()) -> str:
     """Return a name that is not taken, with a number if need be."""
     found, count = name, 1
-    while any(found in names for names in taken):
+    while found in taken or found in others:
         count += 1
         found = f"{name}_{count}"
     return found

@@ -421,6 +421,24 @@ def _collect(value: Any, name: str, found: list[tuple[str, Num]]) -> None:
             _remember(value)
 
 
+def numbers(value: Any) -> list[Num]:
+    """Return the numbers at run time of a value, in the order of `leaves`."""
+    found: list[Num] = []
+    _gather(value, found)
+    return found
+
+
+def _gather(value: Any, found: list[Num]) -> None:
+    if isinstance(value, Num):
+        found.append(value)
+    elif not is_known(value):
+        before = len(found)
+        for item in members(value):
+            _gather(item, found)
+        if len(found) == before:
+            _remember(value)
+
+
 def replaced(value: Any, by: Callable[[Num], Any]) -> Any:
     """Return a value with every number at run time replaced, in the order of `leaves`."""
     if isinstance(value, Num):
