@@ -120,13 +120,13 @@ def stop(supervisor: int) -> list[int]:
 
 
 def test_a_supervisor_that_does_not_answer_is_replaced(native_program: Path, isolated_folder: Path) -> None:
-    with NativeHost(native_program, plain_environment() | {"TRIBOFMU_TIMEOUT": "8"}) as host:
+    with NativeHost(native_program, plain_environment() | {"TRIBOFMU_TIMEOUT": "4"}) as host:
         instance = started(host.load(isolated_folder))
         instance.ask("save", 0)
         (expected,) = rows(instance)
         halted = stop(*host.supervisors())
         assert instance.step(1.0) == ERROR
-        assert "no answer within 8 s" in instance.log[-1][3]
+        assert "no answer within 4 s" in instance.log[-1][3]
         assert instance.ask("restore", 0).status == OK
         assert rows(instance) == [expected]
         assert soon(lambda: not any(map(alive, halted)))

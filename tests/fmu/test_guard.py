@@ -258,8 +258,16 @@ def test_an_unexpected_error_is_logged_with_its_traceback_and_the_state_stands(s
     assert stepped.step(60.0)["valid"]
 
 
-@pytest.mark.parametrize("error", [ValueError, SystemExit, MemoryError, RecursionError])
-@pytest.mark.parametrize("broken", ["with_values", "initial_state", "advance"])
+@pytest.mark.parametrize(
+    ("broken", "error"),
+    [
+        ("with_values", ValueError),
+        ("initial_state", SystemExit),
+        ("advance", ValueError),
+        ("advance", MemoryError),
+        ("advance", RecursionError),
+    ],
+)
 def test_an_unexpected_error_at_initialisation_is_logged_and_a_reset_recovers(host, monkeypatch, broken, error):
     def surprise(*arguments):
         raise error("surprising")

@@ -38,7 +38,7 @@ def test_the_c_host_and_the_core_agree_bit_for_bit(host, quick, isolated_folder)
 def test_a_fault_of_the_model_is_an_error_and_the_saved_state_goes_on_bit_for_bit(host, faulty_folder, load):
     other = started(host, faulty_folder, 1)
     if load in ENDLESS:
-        host.ask("environment", "TRIBOFMU_TIMEOUT", "7.75")
+        host.ask("environment", "TRIBOFMU_TIMEOUT", "3.75")
     instance = started(host, faulty_folder)
     assert instance.ask("save", 0).status == OK
     expected = rows(instance)

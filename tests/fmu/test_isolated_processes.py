@@ -172,7 +172,7 @@ def test_the_reason_of_a_loss_between_calls_is_told(host, isolated_folder):
 @pytest.mark.parametrize("victim", ["nobody", "supervisor"])
 def test_signals_to_the_host_neither_disturb_nor_delay(native_program, faulty_folder, victim):
     """A periodic signal ends every wait early: limits and losses are noticed all the same, and none is made up."""
-    limit = {"TRIBOFMU_TIMEOUT": "8"} if victim == "nobody" else {}
+    limit = {"TRIBOFMU_TIMEOUT": "4"} if victim == "nobody" else {}
     with NativeHost(native_program, plain_environment() | limit) as host:
         instance = started(host, faulty_folder)
         instance.ask("save", 0)
@@ -187,7 +187,7 @@ def test_signals_to_the_host_neither_disturb_nor_delay(native_program, faulty_fo
             os.kill(supervisor, signal.SIGKILL)
         answer = host.answer()
         assert answer.status == ERROR
-        assert ("no answer within 8 s" if victim == "nobody" else "supervisor ended") in answer.log[0][3]
+        assert ("no answer within 4 s" if victim == "nobody" else "supervisor ended") in answer.log[0][3]
         assert host.ask("alarms", 0).status == OK
 
 

@@ -129,10 +129,10 @@ def read(scene):
     table = variables(scene)
     scenes = tuple(scene.at_level(level) for level in LEVELS)
 
-    layout = Layout([v.start for v in table])
+    module, layout = module_name(scene), Layout([v.start for v in table])
 
     def read(data):
-        return Snapshot.from_bytes(data, module_name(scene), layout, lambda values: scenes)
+        return Snapshot.from_bytes(data, module, layout, lambda values: scenes)
 
     return read
 

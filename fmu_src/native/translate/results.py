@@ -7,7 +7,7 @@ from typing import Any
 
 from . import code
 from .units import KEYWORDS, Unit, matched, unique
-from .values import UNARY, Num, leaves, replaced
+from .values import UNARY, Num, leaves, numbers, replaced
 
 _GIVEN = "given_"  # stands, with its place, for a member that is always the same one of those that a function takes
 _LIKE = "like_"  # stands, with its place, for a member that is always the same as an earlier one
@@ -45,30 +45,30 @@ def fields_of(template: Any, names: list[str]) -> list[str]:
 
 def holes_in(template: Any) -> list[Num]:
     """Return the numbers that a function returns."""
-    return [] if template is None else [number for _, number in leaves(template) if not number.text]
+    return [] if template is None else [number for number in numbers(template) if not number.text]
 
 
 def wanted_fields(template: Any, names: list[str]) -> list[str]:
     """Return their names."""
-    return [name for name, (_, each) in zip(fields_of(template, names), leaves(template), strict=True) if not each.text]
+    return [name for name, each in zip(fields_of(template, names), numbers(template), strict=True) if not each.text]
 
 
-def filled(template: Any, numbers: list[Num]) -> Any:
+def filled(template: Any, wanted: list[Num]) -> Any:
     """Return a result with these numbers in it."""
-    given = iter(numbers)
+    given = iter(wanted)
     return replaced(template, lambda hole: hole if hole.text else next(given))
 
 
 def distinct(value: Any) -> list[Num]:
     """Return the numbers at run time of a value, each once."""
-    return list({number.text: number for _, number in leaves(value)}.values())
+    return list({number.text: number for number in numbers(value)}.values())
 
 
 def forwarded(unit: Unit, template: Any, parameters: list[Num]) -> list[int | str] | None:
     """Return where the numbers that a function returns come from if it computes none of them, else None."""
     places = {parameter.text: place for place, parameter in enumerate(parameters)}
     found: list[int | str] = []
-    wanted = [not number.text for _, number in leaves(template)]
+    wanted = [not number.text for number in numbers(template)]
     for number, want in zip(matched(unit.returned[-1], template), wanted, strict=True):
         if not want:
             continue
@@ -117,12 +117,17 @@ def with_given(template: Any, given: list[Num]) -> Any:
     return replaced(template, own)
 
 
+def has_alike(template: Any) -> bool:
+    """Return True for a result with marks for what is the same as an earlier member."""
+    return any(hole.text.startswith(_LIKE) for hole in numbers(template))
+
+
 def with_alike(value: Any) -> Any:
     """Return a result with earlier members in the places of those that are the same."""
-    numbers = [number for _, number in leaves(value)]
+    every = numbers(value)
 
     def own(hole: Num) -> Num:
-        return numbers[int(hole.text.removeprefix(_LIKE))] if hole.text.startswith(_LIKE) else hole
+        return every[int(hole.text.removeprefix(_LIKE))] if hole.text.startswith(_LIKE) else hole
 
     return replaced(value, own)
 
