@@ -109,9 +109,9 @@ def write(
 
 def write_csv(rows: xr.Dataset, path: Path) -> Path:
     """Write a dataset as CSV, a row for each point of its dimensions, and return its path."""
-    columns = xr.broadcast(*(rows[column] for column in (*rows.dims, *rows.data_vars)))
+    columns = {name: rows.variables[name].set_dims(dict(rows.sizes)) for name in (*rows.dims, *rows.data_vars)}
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(f"{column.name} [{column.attrs['units']}]" for column in columns)
-        writer.writerows(zip(*(column.values.ravel().tolist() for column in columns), strict=True))
+        writer.writerow(f"{name} [{column.attrs['units']}]" for name, column in columns.items())
+        writer.writerows(zip(*(column.values.ravel().tolist() for column in columns.values()), strict=True))
     return path
