@@ -1,4 +1,4 @@
-"""Fixtures: one small FMU, built and unpacked once (17 nodes, unresolved; every law in use)."""
+"""Fixtures: small FMUs (17 nodes, unresolved; every law in use), each built once a run."""
 
 import shutil
 import sys
@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from fmu_host import LINE, SMALL, Host, hosted, unpacked
+from built import Built
+from fmu_host import LINE, SMALL, Host, hosted
 from isolated import FAULTS, SCRIPT, UNSAVED
 
 from benchmarks.hosts.native_host import compiled, embedding_environment, plain_environment
 from contact_core import Scene
 from fmu_src.flavours import WITH_PYTHON, Flavour
-from fmu_src.package.build import build
 from fmu_src.runtime.resources import module_name
 
 
@@ -21,6 +21,11 @@ def python_of_isolated_fmus() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("TRIBOFMU_PYTHON", sys.executable)
         yield
+
+
+@pytest.fixture(scope="session")
+def built(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Built:
+    return Built(request, tmp_path_factory)
 
 
 @pytest.fixture(scope="session")
@@ -39,23 +44,23 @@ def line_scene() -> Scene:
 
 
 @pytest.fixture(scope="session")
-def line_file(line_scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build(line_scene, tmp_path_factory.mktemp("line") / "line.fmu", "embedded")
+def line_file(line_scene: Scene, built: Built) -> Path:
+    return built.fmu(line_scene, "embedded")
 
 
 @pytest.fixture(scope="session")
-def line_folder(line_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return unpacked(line_file, tmp_path_factory.mktemp("unpacked"))
+def line_folder(line_scene: Scene, built: Built) -> Path:
+    return built.unpacked(line_scene, "embedded")
 
 
 @pytest.fixture(scope="session")
-def fmu_file(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build(scene, tmp_path_factory.mktemp("fmu") / "small.fmu", "embedded")
+def fmu_file(scene: Scene, built: Built) -> Path:
+    return built.fmu(scene, "embedded")
 
 
 @pytest.fixture(scope="session")
-def folder(fmu_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return unpacked(fmu_file, tmp_path_factory.mktemp("unpacked"))
+def folder(scene: Scene, built: Built) -> Path:
+    return built.unpacked(scene, "embedded")
 
 
 @pytest.fixture
@@ -86,9 +91,8 @@ def quick() -> Scene:
 
 
 @pytest.fixture(scope="session")
-def isolated_folder(quick: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("isolated")
-    return unpacked(build(quick, folder / "quick.fmu"), folder / "quick")
+def isolated_folder(quick: Scene, built: Built) -> Path:
+    return built.unpacked(quick)
 
 
 @pytest.fixture(scope="session")
@@ -106,32 +110,32 @@ def flavour(request: pytest.FixtureRequest) -> Flavour:
 
 
 @pytest.fixture(scope="session")
-def flavoured_file(flavour: Flavour, scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build(scene, tmp_path_factory.mktemp(flavour) / "small.fmu", flavour)
+def flavoured_file(flavour: Flavour, scene: Scene, built: Built) -> Path:
+    return built.fmu(scene, flavour)
 
 
 @pytest.fixture(scope="session")
-def flavoured_folder(flavoured_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return unpacked(flavoured_file, tmp_path_factory.mktemp("unpacked"))
+def flavoured_folder(flavour: Flavour, scene: Scene, built: Built) -> Path:
+    return built.unpacked(scene, flavour)
 
 
 @pytest.fixture(scope="session")
-def quick_file(flavour: Flavour, quick: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def quick_file(flavour: Flavour, quick: Scene, built: Built) -> Path:
     """A contact at the regression level: many instances cost little."""
-    return build(quick, tmp_path_factory.mktemp(flavour) / "quick.fmu", flavour)
+    return built.fmu(quick, flavour)
 
 
 @pytest.fixture(scope="session")
-def quick_folder(quick_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return unpacked(quick_file, tmp_path_factory.mktemp("unpacked"))
+def quick_folder(flavour: Flavour, quick: Scene, built: Built) -> Path:
+    return built.unpacked(quick, flavour)
 
 
 @pytest.fixture(scope="session")
-def native_program(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def native_program(built: Built) -> Path:
     """A host written in C."""
     if shutil.which("gcc") is None:
         pytest.skip("the host in C needs gcc")
-    return compiled(tmp_path_factory.mktemp("native"))
+    return built.folder("host in C", compiled) / "c_host"
 
 
 @pytest.fixture(scope="session")
