@@ -8,12 +8,12 @@ from typing import IO, Any
 
 import pytest
 import xarray as xr
+from built import Built
 from checking import SLAVE, edited, replaced
 from matplotlib.figure import Figure
 from pythonfmu.builder import FmuBuilder
 
 from contact_core import Scene
-from fmu_src.package.build import build
 from system_models.run.contact import run
 from system_models.run.duty import Duty
 
@@ -61,8 +61,13 @@ def duty(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Duty:
 
 
 @pytest.fixture(scope="session")
-def fmu(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build(scene, tmp_path_factory.mktemp("fmu") / "contact.fmu", "embedded")
+def built(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Built:
+    return Built(request, tmp_path_factory)
+
+
+@pytest.fixture(scope="session")
+def fmu(scene: Scene, built: Built) -> Path:
+    return built.fmu(scene, "embedded")
 
 
 @pytest.fixture(scope="session")
