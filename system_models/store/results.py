@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import h5netcdf
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
@@ -79,8 +80,8 @@ def find(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:
 def attributes_of(file: Path) -> dict[str, Any] | None:
     """Return the attributes of a result's netCDF file; None if there is none, or it was cut."""
     try:
-        with xr.open_dataset(file, engine="h5netcdf") as dataset:
-            return dict(dataset.attrs)
+        with h5netcdf.File(file, "r") as opened:  # xarray would look at every variable, too
+            return dict(opened.attrs)
     except (OSError, ValueError):
         return None
 

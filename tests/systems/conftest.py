@@ -11,9 +11,11 @@ import xarray as xr
 from built import Built
 from checking import SLAVE, edited, replaced
 from matplotlib.figure import Figure
+from parsed_page import GEARS
 from pythonfmu.builder import FmuBuilder
 
 from contact_core import Scene
+from system_models.cli.main import main
 from system_models.run.contact import run
 from system_models.run.duty import Duty
 
@@ -73,6 +75,16 @@ def fmu(scene: Scene, built: Built) -> Path:
 @pytest.fixture(scope="session")
 def dataset(fmu: Path, scene: Scene, duty: Duty) -> xr.Dataset:
     return run(fmu, duty, scene.operation.duration, scene.operation.interval)
+
+
+@pytest.fixture(scope="session")
+def gears(built: Built) -> Path:
+    """The folder of the results of a short run of gears."""
+
+    def make(folder: Path) -> None:
+        assert main([*GEARS, "--out", str(folder)]) == 0
+
+    return built.folder(GEARS, make)
 
 
 @pytest.fixture
