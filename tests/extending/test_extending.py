@@ -64,10 +64,12 @@ def extended(folder: Path, *titles: str, without: str = "") -> Tree:
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Tree]:
     """Return the packages with all extensions of the page, and their kernels loaded."""
     whole = extended(tmp_path_factory.mktemp("tree"), LAW, SHAPE, OUTPUT, MACHINE, SCHEME)
-    yield whole.warmed(
-        f"{_START}{_FMU}scene = scene_of()\nadvance(scene, scene.operation.point, initial_state(scene), 1.0)"
-    )
-    whole.close()
+    try:
+        yield whole.warmed(
+            f"{_START}{_FMU}scene = scene_of()\nadvance(scene, scene.operation.point, initial_state(scene), 1.0)"
+        )
+    finally:
+        whole.close()
 
 
 @pytest.fixture

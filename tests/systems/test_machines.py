@@ -211,8 +211,11 @@ COMPARED = {
 
 @pytest.fixture(
     scope="module",
-    params=[("bearing_209", "isolated"), ("mtm_rig", "isolated"), ("mtm_rig", "native")],
-    ids=lambda case: "-".join(case),
+    params=[
+        pytest.param(("bearing_209", "isolated"), id="bearing_209-isolated"),
+        pytest.param(("mtm_rig", "isolated"), id="mtm_rig-isolated"),
+        pytest.param(("mtm_rig", "native"), id="mtm_rig-native", marks=pytest.mark.long),
+    ],
 )
 def compared(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Compared:
     """A machine's file, and what the master says of it after steps that bring it up to speed."""

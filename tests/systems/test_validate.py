@@ -16,7 +16,14 @@ from system_models.validation.registry import COMPARISONS, outcome
 MINUTES = {"optical_films", "dimple"}  # of solving: tests/reference/test_measured_films.py has them on a coarse grid
 
 
-@pytest.mark.parametrize("name", sorted(set(COMPARISONS) - MINUTES))
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.long if name == "starvation" else ())
+        for name in COMPARISONS
+        if name not in MINUTES
+    ],
+)
 def test_nothing_disagrees_without_a_known_cause(name):
     found = outcome(name)
     assert not found.failure
