@@ -24,6 +24,7 @@ from .results import (
     forwarded,
     given_places,
     handed_on,
+    has_alike,
     holes_in,
     parameter_of,
     part_names,
@@ -52,6 +53,21 @@ class CFunction:
     may_fail: bool
     forward: list[int | str] | None = None  # a function that only hands on: places of its numbers, or constants
     writes: frozenset[int] = frozenset()  # which of them are arrays that it sets
+
+    @functools.cached_property
+    def holes(self) -> list[Num]:
+        """The numbers that it returns."""
+        return holes_in(self.template)
+
+    @functools.cached_property
+    def given(self) -> list[tuple[str, int]]:
+        """Names and places of the numbers that it hands on."""
+        return given_places(self.template)
+
+    @functools.cached_property
+    def repeats(self) -> bool:
+        """Whether it returns any number more than once."""
+        return has_alike(self.template)
 
 
 @dataclass
@@ -117,7 +133,7 @@ class Translator:
         takes = [number for number, used in zip(given, found.used, strict=True) if used]
         if found.forward is not None:
             return Entry("", [], filled(found.template, _handed_on(found.forward, given)), False)
-        members = [Num(field, hole.kind) for field, hole in zip(found.fields, holes_in(found.template), strict=True)]
+        members = [Num(field, hole.kind) for field, hole in zip(found.fields, found.holes, strict=True)]
         return Entry(found.name, takes, with_alike(filled(found.template, members)), found.may_fail)
 
     def texts(self, entries: Sequence["Entry"]) -> list[str]:
@@ -174,7 +190,7 @@ class Translator:
             return types.MethodType(method_after(owner.cls, type(owner.owner), name), owner.owner)
         if not is_dynamic(owner) or isinstance(owner, dict | list | np.ndarray):
             return getattr(owner, name)
-        found = inspect.getattr_static(type(owner), name, None)
+        found = _member(type(owner), name)  # type: ignore[arg-type]
         if isinstance(found, property):
             assert isinstance(found.fget, types.FunctionType)
             return self.call(unit, found.fget, [owner], {})
@@ -232,7 +248,7 @@ class Translator:
     def _bound(self, closure: Closure, function: Any, operands: list[Any], named: dict[str, Any]) -> dict[str, Any]:
         """Return the parameters by name."""
         if not isinstance(function, Closure):
-            given = inspect.signature(function).bind(*operands, **named)
+            given = _signature(function).bind(*operands, **named)
             given.apply_defaults()
             return dict(given.arguments)
         names = [each.arg for each in closure.node.args.args + closure.node.args.kwonlyargs]
@@ -240,18 +256,19 @@ class Translator:
 
     def _called(self, unit: Unit, found: CFunction, given: list[Num]) -> Any:
         given = list(given)
-        for name, place in given_places(found.template):  # used again after the call
+        for name, place in found.given:  # used again after the call
             given[place] = unit.let(name or "given", given[place])
-        return with_alike(self._made(unit, found, given))
+        made = self._made(unit, found, given)
+        return with_alike(made) if found.repeats else made
 
     def _made(self, unit: Unit, found: CFunction, given: list[Num]) -> Any:
-        template = with_given(found.template, given)
+        template = with_given(found.template, given) if found.given else found.template
         if found.forward is not None:
             return filled(template, _handed_on(found.forward, given))
         texts = [number.text for number, used in zip(given, found.used, strict=True) if used]
         arrays = {
             field: unit.variable(field, hole.kind)
-            for field, hole in zip(found.fields, holes_in(template), strict=True)
+            for field, hole in zip(found.fields, found.holes, strict=True)
             if "[" in hole.kind
         }
         writes = {grids.base_of(given[place]) for place in found.writes} | {array.text for array in arrays.values()}
@@ -260,17 +277,15 @@ class Translator:
         texts += [array.text for array in arrays.values()]
         if found.may_fail:
             texts.append("why")
-        result = self._result(unit, found, f"{found.name}({', '.join(texts)})", template, frozenset(writes))
+        result = self._result(unit, found, f"{found.name}({', '.join(texts)})", frozenset(writes))
         if found.may_fail:
             self._checked(unit)
         return filled(template, [arrays[field] if field in arrays else result(field) for field in found.fields])
 
-    def _result(
-        self, unit: Unit, found: CFunction, call: str, template: Any, writes: frozenset[str]
-    ) -> Callable[[str], Num]:
+    def _result(self, unit: Unit, found: CFunction, call: str, writes: frozenset[str]) -> Callable[[str], Num]:
         """Write a call; return the numbers that it gives, by the names of members."""
-        holes = {field: hole for field, hole in zip(found.fields, holes_in(template), strict=True)}
-        kinds = {field: hole.kind for field, hole in holes.items() if "[" not in hole.kind}
+        holes = zip(found.fields, found.holes, strict=True)
+        kinds = {field: hole.kind for field, hole in holes if "[" not in hole.kind}
         if not kinds:
             if found.may_fail:
                 unit.emit(code.Do(f"{call};"))
@@ -428,6 +443,15 @@ class Translator:
         return CFunction(name, used, template, all_fields, unit.may_fail, None, sets)
 
 
+_signature = functools.cache(inspect.signature)
+
+
+@functools.cache
+def _member(kind: type, name: str) -> Any:
+    """Return what a class has by a name."""
+    return inspect.getattr_static(kind, name, None)
+
+
 def _bare(function: Any) -> types.FunctionType:
     """Return a function without its wrappers, such as that of the compiler."""
     return inspect.unwrap(function)
@@ -445,5 +469,6 @@ def _handed_on(forward: Sequence[int | str], given: Sequence[Num]) -> list[Num]:
 
 
 def _alike(texts: list[str]) -> tuple[int, ...]:
-    """Return which of some expressions are the same."""
-    return tuple(map(texts.index, texts))
+    """Return which of some expressions are the same: of each, the place where it comes first."""
+    first: dict[str, int] = {}
+    return tuple(first.setdefault(text, place) for place, text in enumerate(texts))

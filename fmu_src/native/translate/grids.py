@@ -240,11 +240,11 @@ def settled(unit: Writer, value: Any, name: str = "values", *, cheap: bool = Tru
 
 
 def _is_lazy(value: Any) -> bool:
-    if isinstance(value, Num) or not values.is_dynamic(value):
+    if isinstance(value, Num) or values.is_known(value):
         return False
     if isinstance(value, Grid):
         return not isinstance(value, Stored)
-    return any(_is_lazy(item) for _, item in parts(value) or ())
+    return any(map(_is_lazy, values.members(value)))
 
 
 def both_stored(one: Any, other: Any) -> tuple[Any, Any]:

@@ -117,6 +117,11 @@ def with_given(template: Any, given: list[Num]) -> Any:
     return replaced(template, own)
 
 
+def has_alike(template: Any) -> bool:
+    """Return True for a result with marks for what is the same as an earlier member."""
+    return any(hole.text.startswith(_LIKE) for _, hole in leaves(template))
+
+
 def with_alike(value: Any) -> Any:
     """Return a result with earlier members in the places of those that are the same."""
     numbers = [number for _, number in leaves(value)]

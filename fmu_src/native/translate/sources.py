@@ -67,6 +67,7 @@ def _goes_on(node: ast.stmt) -> bool:
     return isinstance(node, ast.Assign)
 
 
+@functools.cache
 def is_compiled(node: Any) -> bool:
     """Return True for a function that numba compiles: its loops stay loops, and it may set arrays."""
     marks = [ast.unparse(each) for each in getattr(node, "decorator_list", [])]

@@ -2,6 +2,7 @@
 
 import ast
 import dataclasses
+import functools
 import re
 from collections.abc import Callable, Collection
 from types import FunctionType
@@ -84,8 +85,7 @@ class Unit:
 
     def fresh(self, name: str) -> str:
         """Return a new name for a local variable, made from a Python name."""
-        found = re.sub(r"\W", "_", name).strip("_") or "value"
-        found = unique(found if not found[0].isdigit() else f"part_{found}", self.names | _TAKEN)
+        found = unique(_name(name), self.names, _TAKEN)
         self.names.add(found)
         return found
 
@@ -208,10 +208,17 @@ class Names(Protocol):
         """Leave the function with a message."""
 
 
-def unique(name: str, taken: Collection[str]) -> str:
+@functools.cache
+def _name(name: str) -> str:
+    """Return a name of C for a Python one, or for a way to a member."""
+    found = re.sub(r"\W", "_", name).strip("_") or "value"
+    return f"part_{found}" if found[0].isdigit() else found
+
+
+def unique(name: str, *taken: Collection[str]) -> str:
     """Return a name that is not taken, with a number if need be."""
     found, count = name, 1
-    while found in taken:
+    while any(found in names for names in taken):
         count += 1
         found = f"{name}_{count}"
     return found

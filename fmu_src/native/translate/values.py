@@ -2,10 +2,12 @@
 
 import dataclasses
 import enum
+import functools
 import math
-from collections.abc import Callable
+import operator
+from collections.abc import Callable, Iterable
 from types import FunctionType
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -165,9 +167,12 @@ def literal(value: Any, kind: str = "d") -> Num:
     return Num(f"-{text}", binds=UNARY) if math.copysign(1.0, number) < 0.0 else Num(text)
 
 
+_NUMBERS = (Num, bool, int, float, np.number, np.bool_)
+
+
 def is_number(value: Any) -> bool:
     """Return True for a number, known or not."""
-    return isinstance(value, Num | bool | int | float | np.number | np.bool_)
+    return isinstance(value, _NUMBERS)
 
 
 def kind_of(value: Any) -> str:
@@ -186,8 +191,11 @@ def as_double(value: Any) -> Num:
     return literal(value)
 
 
+_KNOWN_NUMBERS = (int, float, np.number)
+
+
 def _is(value: Any, number: float) -> bool:
-    return isinstance(value, int | float | np.number) and float(value) == number
+    return isinstance(value, _KNOWN_NUMBERS) and float(value) == number
 
 
 def _sum(one: Any, other: Any) -> Any:
@@ -302,25 +310,50 @@ _static: dict[int, Any] = {}  # objects without a number at run time, kept alive
 _signatures: dict[int, int] = {}  # of these objects
 _WHOLE = frozenset({float, int, bool, str, type(None), np.float64, FunctionType, type, np.ufunc})  # have no members
 
+Names: TypeAlias = Callable[[Any], Iterable[str]]
+Items: TypeAlias = Callable[[Any], Iterable[Any]]
+
 
 def parts(value: Any) -> list[tuple[str, Any]] | None:
     """Return names and members of a value that has some; None of one that is whole."""
     if isinstance(value, Grid):
         return value.members()
-    if isinstance(value, tuple) and hasattr(value, "_fields"):
-        return list(zip(value._fields, value, strict=True))
-    if isinstance(value, tuple | list):
-        return [(str(i), item) for i, item in enumerate(value)]
-    if isinstance(value, dict):
-        return [(str(key), item) for key, item in value.items()]
-    if isinstance(value, np.ndarray) and value.dtype == object:
-        return [("_".join(map(str, place)), item) for place, item in np.ndenumerate(value)]
-    if isinstance(value, Closure):
-        return list(value.names.items())
-    if isinstance(value, Method):
-        return [("", value.owner)]
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        return list(vars(value).items())
+    found = _access(type(value))  # type: ignore[arg-type]  # types can be hashed
+    if found is None or (isinstance(value, np.ndarray) and value.dtype != object):
+        return None
+    names, items = found
+    return list(zip(names(value), items(value), strict=True))
+
+
+def members(value: Any) -> Iterable[Any]:
+    """Return the members of a value; none of one that is whole."""
+    if isinstance(value, Grid):
+        return [item for _, item in value.members()]
+    found = _access(type(value))  # type: ignore[arg-type]  # types can be hashed
+    if found is None or (isinstance(value, np.ndarray) and value.dtype != object):
+        return ()
+    return found[1](value)
+
+
+@functools.cache
+def _access(kind: type) -> tuple[Names, Items] | None:
+    """Return what gives names and members of the values of a type; None for a type whose values are whole."""
+    if issubclass(kind, tuple) and hasattr(kind, "_fields"):
+        return (lambda value: value._fields), iter
+    if issubclass(kind, tuple | list):
+        return (lambda value: map(str, range(len(value)))), iter
+    if issubclass(kind, dict):
+        return (lambda value: map(str, value)), dict.values
+    if issubclass(kind, np.ndarray):
+        return (lambda value: ("_".join(map(str, place)) for place in np.ndindex(value.shape))), (
+            lambda value: value.flat
+        )
+    if issubclass(kind, Closure):
+        return (lambda value: value.names), (lambda value: value.names.values())
+    if issubclass(kind, Method):
+        return (lambda value: ("",)), (lambda value: (value.owner,))
+    if dataclasses.is_dataclass(kind):
+        return vars, (lambda value: vars(value).values())
     return None
 
 
@@ -349,13 +382,21 @@ def rebuilt(value: Any, members: list[Any]) -> Any:
     return copy
 
 
+_AT_RUN_TIME = (Num, Grid)
+
+
+def is_known(value: Any) -> bool:
+    """Return True if a value is seen at once to have no number that is known at run time only."""
+    return type(value) in _WHOLE or id(value) in _static
+
+
 def is_dynamic(value: Any) -> bool:
     """Return True if any number in a value is known at run time only."""
-    if isinstance(value, Num | Grid):
-        return True
-    if type(value) in _WHOLE or id(value) in _static:
+    if is_known(value):
         return False
-    if any(is_dynamic(item) for _, item in parts(value) or ()):
+    if isinstance(value, _AT_RUN_TIME):
+        return True
+    if any(map(is_dynamic, members(value))):
         return True
     _remember(value)
     return False
@@ -371,7 +412,7 @@ def leaves(value: Any, name: str = "") -> list[tuple[str, Num]]:
 def _collect(value: Any, name: str, found: list[tuple[str, Num]]) -> None:
     if isinstance(value, Num):
         found.append((name, value))
-    elif not (type(value) in _WHOLE or id(value) in _static):
+    elif not is_known(value):
         before = len(found)
         for part, item in parts(value) or ():
             own = part if not part[:1].isdigit() or not name else f"{name}_{part}"
@@ -384,11 +425,11 @@ def replaced(value: Any, by: Callable[[Num], Any]) -> Any:
     """Return a value with every number at run time replaced, in the order of `leaves`."""
     if isinstance(value, Num):
         return by(value)
-    if type(value) in _WHOLE or id(value) in _static:
+    if is_known(value):
         return value
-    members = [item for _, item in parts(value) or ()]
-    others = [replaced(item, by) for item in members]
-    if any(one is not other for one, other in zip(members, others, strict=True)):
+    own = list(members(value))
+    others = [replaced(item, by) for item in own]
+    if any(map(operator.is_not, own, others)):
         return rebuilt(value, others)
     return value
 
