@@ -71,7 +71,9 @@ def _python_mass(folder: Path) -> Path:
     if not path.exists():
         before = sys.path[:]  # pythonfmu leaves the folder of the script in it
         states = {"canGetAndSetFMUstate": True, "canSerializeFMUstate": True}
-        FmuBuilder.build_FMU(SCRIPT, path, needsExecutionTool=False, **states)
+        part = path.with_suffix(f".{os.getpid()}.fmu")  # a second process may look for it
+        FmuBuilder.build_FMU(SCRIPT, part, needsExecutionTool=False, **states)
+        part.rename(path)
         sys.path[:] = before
     return path
 
