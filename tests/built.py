@@ -6,7 +6,8 @@ Nothing of it may be changed: whoever changes files copies them first. Whoever p
 import hashlib
 import shutil
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,8 @@ from filelock import FileLock
 
 from contact_core import Scene
 from fmu_src.flavours import Flavour, Version
-from fmu_src.native.build import default_compiler
+from fmu_src.native import build as native_build
+from fmu_src.native import program
 from fmu_src.package.build import build
 from fmu_src.runtime import resources
 from system_models.parts import resources as resources_of_parts
@@ -66,9 +68,31 @@ class Built:
 
         return self.folder(("unpacked", file.parent.name), make)
 
+    @contextmanager
+    def sharing(self) -> Iterator[None]:
+        """All processes of the run share what takes longest of native FMUs: equations in C, and what is compiled."""
+        written, compiled = program._equations, native_build._object
+
+        def equations(scene: Scene) -> dict[str, str]:
+            def make(folder: Path) -> None:
+                for name, text in written(scene).items():
+                    (folder / name).write_text(text, encoding="utf-8")
+
+            folder = self.folder(("equations", program._key(scene)), make)
+            return {path.name: path.read_text("utf-8") for path in sorted(folder.iterdir())}
+
+        def object_of(*source: Any) -> bytes:
+            folder = self.folder(("object", *source), lambda folder: (folder / "one.o").write_bytes(compiled(*source)))
+            return (folder / "one.o").read_bytes()
+
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(program, "_equations", equations)
+            patch.setattr(native_build, "_object", object_of)
+            yield
+
 
 def _key(source: Scene | Part, flavour: Flavour, fmi: Version, options: dict[str, Any]) -> tuple[object, ...]:
     """All that decides what the FMU contains."""
     guid = resources.guid if isinstance(source, Scene) else resources_of_parts.guid
-    compiler = default_compiler() if flavour == "native" else None
+    compiler = native_build.default_compiler() if flavour == "native" else None
     return guid(source, flavour, fmi), compiler, sorted(options.items())

@@ -1,6 +1,9 @@
 """Memory that this process has allocated."""
 
 import ctypes
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import pytest
 
@@ -9,6 +12,17 @@ class _Mallinfo(ctypes.Structure):
     _fields_ = [(f"before_{k}", ctypes.c_size_t) for k in range(4)]
     _fields_ += [("in_maps", ctypes.c_size_t), ("unused_1", ctypes.c_size_t), ("unused_2", ctypes.c_size_t)]
     _fields_ += [("in_heap", ctypes.c_size_t), ("free", ctypes.c_size_t), ("at_top", ctypes.c_size_t)]
+
+
+@contextmanager
+def new_objects_only() -> Iterator[None]:
+    """Leave what is there already to itself: collecting garbage then looks at what is made from now on."""
+    gc.collect()
+    gc.freeze()
+    try:
+        yield
+    finally:
+        gc.unfreeze()
 
 
 def allocated() -> int:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built import Built
 from comparison import approx
 from fmpy.fmi1 import FMICallException
 
@@ -22,12 +23,12 @@ Start = Callable[..., Instance]
 
 
 @pytest.fixture
-def start(tmp_path: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Start]:
+def start(built: Built, tmp_path: Path) -> Iterator[Start]:
     """Builds a model and starts it at time 0 with all its Real inputs and outputs."""
     running: list[Instance] = []
 
     def started(name: str, fmi: int, early_return: bool = False, **options: Any) -> Instance:
-        path = build(name, tmp_path, fmi, **options)
+        path = build(name, built.models, fmi, **options)
         folder = tmp_path / path.stem
         if not folder.exists():
             with zipfile.ZipFile(path) as archive:
@@ -88,8 +89,8 @@ def test_a_state_is_restored_any_number_of_times_and_in_another_instance(start: 
 
 @pytest.mark.parametrize("fmi", [2, 3])
 @pytest.mark.parametrize("rollback", [True, False])
-def test_whether_it_restores_is_read_from_its_description(tmp_path: Path, fmi: int, rollback: bool) -> None:
-    model = Model("one", build("gain", tmp_path, fmi, rollback=rollback))
+def test_whether_it_restores_is_read_from_its_description(built: Built, fmi: int, rollback: bool) -> None:
+    model = Model("one", build("gain", built.models, fmi, rollback=rollback))
     assert model.restores is model.serialises is rollback
 
 

@@ -14,7 +14,6 @@ from test_run import direct
 
 from benchmarks.hosts.native_host import OK, NativeHost, plain_environment
 from fmu_src.flavours import VERSIONS
-from fmu_src.package.build import build
 
 pytestmark = pytest.mark.importers
 
@@ -40,10 +39,11 @@ def kind(request):
 
 
 @pytest.fixture(scope="module")
-def file(kind, scene, quick, tmp_path_factory):
+def file(kind, scene, quick, built):
     flavour, fmi = kind
-    own = quick if flavour == "native" else scene
-    return build(own, tmp_path_factory.mktemp("imported") / "small.fmu", flavour, fmi=fmi)
+    if flavour == "native":
+        return built.fmu(quick, flavour, fmi=fmi, here=True)
+    return built.fmu(scene, flavour, fmi=fmi)
 
 
 @pytest.fixture(scope="session")

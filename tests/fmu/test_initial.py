@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built import Built
 from comparison import approx
 from fmpy.fmi1 import FMICallException
 
@@ -24,8 +25,8 @@ Initialised = Callable[..., tuple[int, dict[str, float]]]
 
 
 @pytest.fixture(scope="session")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("models")
+def folder(built: Built) -> Path:
+    return built.models
 
 
 @pytest.fixture

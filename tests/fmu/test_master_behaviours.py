@@ -9,15 +9,16 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from built import Built
 from comparison import approx
 
 from benchmarks.models import build
 from system_models.master import CouplingError, System, simulate
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("fmus")
+@pytest.fixture(scope="session")
+def folder(built: Built) -> Path:
+    return built.models
 
 
 def alone(path: Path, **parameters: Any) -> System:

@@ -5,15 +5,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from built import Built
 from comparison import approx
 
 from benchmarks.models import build
 from system_models.master import CouplingError, System, simulate
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return tmp_path_factory.mktemp("models")
+@pytest.fixture(scope="session")
+def folder(built: Built) -> Path:
+    return built.models
 
 
 def oscillator(folder: Path, force: str, spring: str, **more: object) -> System:

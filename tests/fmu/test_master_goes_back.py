@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from built import Built
 
 from benchmarks.models import build, systems
 from system_models.master import System, simulate
@@ -80,9 +81,9 @@ CASES = {
 
 
 @pytest.fixture(scope="module", params=CASES)
-def case(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[System, dict[str, Any]]:
+def case(request: pytest.FixtureRequest, built: Built) -> tuple[System, dict[str, Any]]:
     build_system, settings = CASES[request.param]
-    return build_system(tmp_path_factory.mktemp("fmus")), {"step_size": 1e-3, **settings}
+    return build_system(built.models), {"step_size": 1e-3, **settings}
 
 
 def test_after_going_back_all_is_as_it_was_at_the_point(
@@ -148,9 +149,11 @@ def test_a_checkpoint_gives_back_all_that_there_was(
         assert rows == rows_again
 
 
-def test_a_count_is_passed_on_in_every_step_however_often_it_is_repeated(tmp_path: Path) -> None:
+def test_a_count_is_passed_on_in_every_step_however_often_it_is_repeated(built: Built) -> None:
     """The FMU that is told goes back to the count of the point, and must be told again."""
-    found = simulate(mixed(tmp_path), 0.6, 1e-3, order=2, tolerance=1e-3, outputs=["teeth.tooth", "echo.integer_out"])
+    found = simulate(
+        mixed(built.models), 0.6, 1e-3, order=2, tolerance=1e-3, outputs=["teeth.tooth", "echo.integer_out"]
+    )
     assert np.unique(found["teeth.tooth"].values).tolist() == [*range(int(found["teeth.tooth"].values[-1]) + 1)]
     assert found["teeth.tooth"].values[-1] > 3
     assert found["echo.integer_out"].values.tolist() == found["teeth.tooth"].values.tolist()

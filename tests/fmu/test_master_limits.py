@@ -1,9 +1,8 @@
 """The longest step, and the outputs that are to meet the tolerance."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from built import Built
 from comparison import approx
 
 from benchmarks.models.systems import quarter_car_force, two_mass_force
@@ -12,9 +11,8 @@ from system_models.master.coupled import Coupled
 
 
 @pytest.fixture(scope="module")
-def case(tmp_path_factory: pytest.TempPathFactory):
-    folder: Path = tmp_path_factory.mktemp("fmus")
-    return two_mass_force(folder)
+def case(built: Built):
+    return two_mass_force(built.models)
 
 
 def run(case, **settings):
@@ -29,9 +27,9 @@ def test_no_step_is_longer_than_the_longest(case):
     assert bounded.attrs["steps"] > free.attrs["steps"]
 
 
-def test_after_a_change_of_the_schedule_steps_are_short_again(case, tmp_path):
+def test_after_a_change_of_the_schedule_steps_are_short_again(case, built):
     """Steps that have grown know nothing of what follows."""
-    system = quarter_car_force(tmp_path).system
+    system = quarter_car_force(built.models).system
     system.schedule = {"wheel.road": [(0.0, 0.0), (1.0, 0.1)]}
     found = simulate(system, 1.5, 1e-4, order=2, tolerance=1e-2, outputs=["wheel.x"])
     sizes, times = found["master.step_size"].values, found["time"].values

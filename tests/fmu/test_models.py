@@ -9,6 +9,7 @@ from typing import Any
 import fmpy
 import numpy as np
 import pytest
+from built import Built
 from comparison import approx
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Error, fmi2LastSuccessfulTime, fmi2Terminated
@@ -101,13 +102,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def run(folder: Path) -> Iterator[Any]:
+def run(built: Built, folder: Path) -> Iterator[Any]:
     """Starts instances: run(name, fmi, start, instantiate={...}, **variant)."""
     started: list[Running] = []
 
     def start(name: str, fmi: int = 2, start: dict[str, Any] | None = None, **more: Any) -> Running:
         options = more.pop("instantiate", {})
-        started.append(Running(build(name, folder, fmi, **more), folder, start, **options))
+        started.append(Running(build(name, built.models, fmi, **more), folder, start, **options))
         return started[-1]
 
     yield start

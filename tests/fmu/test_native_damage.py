@@ -36,6 +36,7 @@ def test_classes_wear_and_break_out_one_after_the_other_as_in_python(weak):
     assert contact.found["damage_2"] > 0.0
 
 
+@pytest.mark.long
 def test_bits_of_damage_do_not_depend_on_the_compiler(weak, tmp_path):
     scene, contact = weak
     assert bits(NativeContact(scene, tmp_path, "gcc", "-O3"), scene, 50) == bits(contact, scene, 50)

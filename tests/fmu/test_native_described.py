@@ -1,23 +1,17 @@
 """The description of a native FMU names no value that the FMU refuses."""
 
 import shutil
-from pathlib import Path
 
 import fmpy
 import pytest
+from built import Built
 
 from contact_core import Scene
+from fmu_src.flavours import Version
 from fmu_src.native import build as native_build
 from fmu_src.native.built_in import native_variables
-from fmu_src.package.build import build
 from fmu_src.variables import variables
-from system_models.check.deep import findings
-from system_models.check.package import FmuError, opened
-from system_models.check.start import asked, cheapest
-from system_models.check.verdict import Verdict
 from system_models.parts.brake import Brake
-from system_models.parts.build import build as build_part
-from tests.mapped_scene import mapped_scene
 
 pytestmark = [pytest.mark.fmu, pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")]
 
@@ -36,8 +30,8 @@ def held(listed: list) -> list[str]:
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
-def test_parameters_and_radii_of_a_point_have_their_start_values_only(quick: Scene, fmi: int, tmp_path: Path) -> None:
-    fmu = build(quick, tmp_path / "point.fmu", "native", fmi=fmi, here=True)
+def test_parameters_and_radii_of_a_point_have_their_start_values_only(quick: Scene, fmi: Version, built: Built) -> None:
+    fmu = built.fmu(quick, "native", fmi=fmi, here=True)
     listed = fmpy.read_model_description(str(fmu)).modelVariables
     parameters = [v for v in listed if v.causality == "parameter"]
     assert held(listed) == RADII + [v.name for v in parameters if v.type != "String"]
@@ -50,21 +44,7 @@ def test_the_radius_of_a_line_is_an_input_like_others(line_scene: Scene) -> None
     assert table["radius_x"].minimum < table["radius_x"].maximum
 
 
-def test_a_component_has_the_start_values_of_its_parameters_only(tmp_path: Path) -> None:
-    file = build_part(Brake(), tmp_path / "brake.fmu", "native", here=True)
+def test_a_component_has_the_start_values_of_its_parameters_only(built: Built) -> None:
+    file = built.fmu(Brake(), "native", here=True)
     listed = fmpy.read_model_description(str(file)).modelVariables
     assert held(listed) == [v.name for v in listed if v.causality == "parameter"] != []
-
-
-def test_a_contact_with_a_map_is_checked_at_the_one_level_that_it_has(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    fmu = build(mapped_scene(tmp_path / "scene"), tmp_path / "map.fmu", "native", here=True)
-    description = fmpy.read_model_description(str(fmu))
-    assert cheapest(description) == {}
-    with pytest.raises(FmuError, match=r"fidelity = 1: this FMU has no other value than 4\. Leave it out of --set\."):
-        asked(description, [("fidelity", "1")])
-    monkeypatch.setattr("system_models.check.deep.RULES", {"run": ("run",), "input range": ("sweep",)})
-    with opened(fmu) as package:
-        found = list(findings(package, 60.0, 600.0))
-    assert [(f.rule, f.verdict) for f in found] == [("run", Verdict.PASS), ("input range", Verdict.PASS)]

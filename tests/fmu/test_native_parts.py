@@ -8,6 +8,7 @@ from pathlib import Path
 
 import fmpy
 import pytest
+from built import Built
 from fmpy.fmi2 import FMU2Slave
 from fmpy.validation import validate_fmu
 
@@ -57,13 +58,13 @@ def gcc(monkeypatch: pytest.MonkeyPatch) -> None:
 class Running:
     """A native FMU after initialisation."""
 
-    def __init__(self, part: Part, folder: Path) -> None:
-        self.file = build(part, folder / "part.fmu", "native", here=True)
+    def __init__(self, part: Part, built: Built) -> None:
+        self.file = built.fmu(part, "native", here=True)
         description = fmpy.read_model_description(str(self.file))
         self.references = {v.name: v.valueReference for v in description.modelVariables}
         self.fmu = FMU2Slave(
             guid=description.guid,
-            unzipDirectory=fmpy.extract(str(self.file), str(folder / "files")),
+            unzipDirectory=str(built.unpacked(part, "native", here=True)),
             modelIdentifier=description.coSimulation.modelIdentifier,
             instanceName="part",
         )
@@ -97,9 +98,9 @@ def near(part: Part, generator: random.Random) -> dict[str, float]:
 
 
 @pytest.mark.parametrize("part", PARTS, ids=lambda part: part.name)
-def test_a_component_in_c_answers_as_its_python(part: Part, tmp_path: Path) -> None:
+def test_a_component_in_c_answers_as_its_python(part: Part, built: Built) -> None:
     """At the start, with new inputs before a step, and after steps from a millisecond to some minutes."""
-    running, generator = Running(part, tmp_path), random.Random(1)
+    running, generator = Running(part, built), random.Random(1)
     inputs = start_values(part)
     state = part.initial(inputs)
     worst = running.apart(part, part.outputs(state, inputs))
@@ -115,9 +116,9 @@ def test_a_component_in_c_answers_as_its_python(part: Part, tmp_path: Path) -> N
     assert worst < BY_PART.get(part.name, ROUNDING)
 
 
-def test_a_thermostat_in_c_leaves_its_limits_at_the_same_moment(tmp_path: Path) -> None:
+def test_a_thermostat_in_c_leaves_its_limits_at_the_same_moment(built: Built) -> None:
     """A cold start, heated as much as possible and then held, in one step: its energy tells when."""
-    running = Running(HOUSE, tmp_path)
+    running = Running(HOUSE, built)
     inputs = start_values(HOUSE)
     state = HOUSE.advance(HOUSE.initial(inputs), inputs, 3600.0)
     running.step(3600.0)
@@ -127,9 +128,9 @@ def test_a_thermostat_in_c_leaves_its_limits_at_the_same_moment(tmp_path: Path) 
     running.fmu.freeInstance()
 
 
-def test_a_native_component_is_a_valid_fmu_without_python(tmp_path: Path) -> None:
+def test_a_native_component_is_a_valid_fmu_without_python(built: Built) -> None:
     """Neither a script nor an interpreter is in it."""
-    file = build(Brake(), tmp_path / "brake.fmu", "native", here=True)
+    file = built.fmu(Brake(), "native", here=True)
     with zipfile.ZipFile(file) as archive:
         names = archive.namelist()
         assert not [name for name in names if name.startswith("resources/") or name.endswith(".py")]
@@ -139,9 +140,9 @@ def test_a_native_component_is_a_valid_fmu_without_python(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("flavour", ["native", "isolated"])
-def test_a_component_gives_the_same_by_both_versions_of_fmi(flavour: Flavour, tmp_path: Path) -> None:
+def test_a_component_gives_the_same_by_both_versions_of_fmi(flavour: Flavour, built: Built) -> None:
     """Description, library and build description are of the model's name and of that version."""
-    files = [build(Brake(), tmp_path / f"{fmi}.fmu", flavour, fmi=fmi, here=True) for fmi in (2, 3)]
+    files = [built.fmu(Brake(), flavour, fmi=fmi, here=True) for fmi in (2, 3)]
     assert [validate_fmu(str(file)) for file in files] == [[], []]
     starts = {"torque_setpoint": 20.0, "speed": 3.0}
     two, three = (
@@ -160,9 +161,9 @@ def test_a_component_is_not_embedded_in_fmi_3(tmp_path: Path) -> None:
         build(Brake(), tmp_path / "brake.fmu", "embedded", fmi=3)
 
 
-def test_a_state_saved_before_outputs_were_asked_for_gives_the_same_ones(tmp_path: Path) -> None:
+def test_a_state_saved_before_outputs_were_asked_for_gives_the_same_ones(built: Built) -> None:
     """An input has been set, its outputs are behind: a state keeps that."""
-    running = Running(Brake(), tmp_path)
+    running = Running(Brake(), built)
     running.set({"torque_setpoint": 20.0, "speed": 3.0})
     running.step(1.0)
     running.set({"speed": 100.0})
