@@ -40,6 +40,14 @@ CHEAP, HARD = {_CHEAP!r}, {HARD!r}
 def scene_of(name="mtm_zddp", **changes):
     return Scene.from_toml(name, CHEAP | {{key.replace("__", "."): value for key, value in changes.items()}})
 """
+_LOADED = """
+from matplotlib.figure import Figure
+from system_models.run import contact, report
+from system_models.store import results
+Figure.savefig = lambda figure, file, **options: open(file, "wb").close()
+scene = scene_of()
+advance(scene, scene.operation.point, initial_state(scene), 1.0)
+"""
 _FMU = """
 import zipfile
 from pathlib import Path
@@ -62,12 +70,10 @@ def extended(folder: Path, *titles: str, without: str = "") -> Tree:
 
 @pytest.fixture(scope="module")
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Tree]:
-    """Return the packages with all extensions of the page, and their kernels loaded."""
+    """Return the packages with all extensions of the page, with kernels loaded, and pictures that are not rendered."""
     whole = extended(tmp_path_factory.mktemp("tree"), LAW, SHAPE, OUTPUT, MACHINE, SCHEME)
     try:
-        yield whole.warmed(
-            f"{_START}{_FMU}scene = scene_of()\nadvance(scene, scene.operation.point, initial_state(scene), 1.0)"
-        )
+        yield whole.warmed(_START + _FMU + _LOADED)
     finally:
         whole.close()
 
@@ -157,7 +163,7 @@ from pathlib import Path
 sys.path.append({str(ROOT)!r})
 from benchmarks.fmu.native_contact import NativeContact, differences
 scene = scene_of(tribofilm__set="quinn_80c").at_level("regression")
-contact = NativeContact(scene, Path.cwd())
+contact = NativeContact(scene, Path.cwd(), "gcc", "-O0")
 print(json.dumps(["quinn_evolve" in contact.sources["contact.c"], differences(scene, contact, 2, 5)]))
 """,
     )

@@ -63,11 +63,6 @@ def duty(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Duty:
 
 
 @pytest.fixture(scope="session")
-def built(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Built:
-    return Built(request, tmp_path_factory)
-
-
-@pytest.fixture(scope="session")
 def fmu(scene: Scene, built: Built) -> Path:
     return built.fmu(scene, "embedded")
 

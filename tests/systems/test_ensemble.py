@@ -95,6 +95,7 @@ def test_an_ensemble_is_the_mean_of_its_members_with_a_band_by_their_scatter(ran
     assert whole["valid"].values.all() and whole["range_flags"].dtype.kind == "i"
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("patches")
 def test_an_ensemble_goes_on_with_the_member_that_is_missing(ran: Ran, monkeypatch: pytest.MonkeyPatch) -> None:
     anew: list[object] = []
