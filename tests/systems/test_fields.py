@@ -165,7 +165,7 @@ def test_patches_lie_under_the_contact_at_their_offsets(found: xr.Dataset, scene
     assert all(abs(above(beside)) < 0.5 * above(0) for beside in (-9, -5, 5, 9))
 
 
-def test_a_run_with_fields_goes_on_from_every_row_bit_for_bit(
+def test_a_run_with_fields_goes_on_from_its_rows_bit_for_bit(
     fmu: Path,
     scene: Scene,
     changing: Duty,
