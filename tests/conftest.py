@@ -15,6 +15,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import lark
 import pytest
+from built import Built
 from hypothesis import HealthCheck, settings
 
 # a background job of a shell inherits that Ctrl-C is ignored; tests of interrupts raise it themselves
@@ -34,6 +35,17 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if item.get_closest_marker("long"):
             item.add_marker(later)
         item.add_marker(item.path.relative_to(Path(__file__).parent).parts[0])
+
+
+@pytest.fixture(scope="session")
+def built(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Built:
+    return Built(request, tmp_path_factory)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _native_fmus_share_their_parts(built: Built) -> Iterator[None]:
+    with built.sharing():
+        yield
 
 
 @pytest.fixture(scope="session", autouse=True)

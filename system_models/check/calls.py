@@ -7,7 +7,7 @@ from pathlib import Path
 
 from fmpy.fmi1 import FMICallException
 
-from ..fmu.model import kind
+from ..fmu.kinds import kind
 from .instance import Fmu, Instance, RefusedError, Row
 from .library import Instead
 from .rows import again, difference, reals_of

@@ -15,7 +15,8 @@ from time import monotonic
 from . import static
 from .instance import call_in, progress_in
 from .package import Package
-from .start import Start, asked, cheapest, sentence
+from .start import asked, cheapest, sentence
+from .variables import Start
 from .verdict import Answer, Finding, Verdict, failed, not_applicable, noted
 
 # stages of a rule, each in a new process (check.stages)

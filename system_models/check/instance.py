@@ -14,10 +14,9 @@ import fmpy
 from fmpy.fmi1 import FMICallException
 
 from ..fmu import messages
-from ..fmu.model import kind
+from ..fmu.kinds import kind
 from .library import STATUS, FMU2Checked, FMU3Checked, Instead, Library
-from .start import Start
-from .variables import clipped, is_readable, is_real, magnitude
+from .variables import Start, clipped, is_readable, is_real, magnitude
 
 Value = float | int | bytes
 Row = dict[str, str]  # outputs as text that differs where bits differ

@@ -23,7 +23,7 @@ from fmpy.fmi3 import (
 from fmpy.model_description import ModelDescription, ModelVariable
 
 from ..fmu import messages
-from ..fmu.fmi2 import FMU2Library
+from ..fmu.library import FMU2Library
 
 STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")  # by number
 

@@ -16,7 +16,7 @@ from fmpy.fmi1 import FMICallException
 
 from . import answers, calls, derivatives, hosts, reference
 from .instance import Fmu
-from .start import Start
+from .variables import Start
 from .verdict import Answer, failed
 
 Stage = Callable[[Fmu, Path], Answer | None]

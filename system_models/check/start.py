@@ -1,14 +1,12 @@
 """Start values with which the rules run an FMU, where they are not its own."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 from fmpy.model_description import ModelDescription, ModelVariable
 
-from ..fmu.model import kind
+from ..fmu.kinds import kind
 from .package import FmuError
-from .variables import attribute, is_readable
-
-Start = Mapping[str, float | int | str]
+from .variables import Start, attribute, is_readable
 
 _LEVEL = "fidelity"  # an Integer parameter: the lowest is the cheapest
 _TRUTH = {"true": 1, "1": 1, "false": 0, "0": 0}

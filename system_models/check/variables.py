@@ -1,10 +1,13 @@
 """Attributes of a variable in fmpy's model description."""
 
 import math
+from collections.abc import Mapping
 
 from fmpy.model_description import ModelVariable
 
-from ..fmu.model import kind
+from ..fmu.kinds import kind
+
+Start = Mapping[str, float | int | str]  # values by name
 
 _REALS = {"Real", "Float32", "Float64"}
 _KINDS = {"real", "float", "integer", "boolean", "string"}

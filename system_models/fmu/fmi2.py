@@ -6,46 +6,21 @@ from typing import Any
 import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (
-    FMU2Slave,
-    fmi2CoSimulation,
     fmi2Discard,
     fmi2Integer,
     fmi2LastSuccessfulTime,
     fmi2Terminated,
     fmi2ValueReference,
 )
-from fmpy.model_description import ModelDescription, ModelVariable
+from fmpy.model_description import ModelVariable
 from numpy.typing import NDArray
 
-from . import messages
 from .instance import Instance
-from .loading import load, resources_of
-from .model import kind
+from .kinds import kind
+from .library import FMU2Library
+from .loading import load
 
 _FACTORIALS = np.array([[1.0], [1.0], [2.0]])
-
-
-class FMU2Library(FMU2Slave):  # fmpy takes the version of FMI from the name
-    """The library of an unpacked FMU, whose messages go to `messages`."""
-
-    def __init__(self, description: ModelDescription, folder: str) -> None:
-        super().__init__(
-            guid=description.guid,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            unzipDirectory=folder,
-        )
-        self.callbacks = messages.callbacks()
-
-    def create(self, name: str, **instead: Any) -> int | None:
-        """Return a new component, None if it is refused; `instead` replaces arguments of fmi2Instantiate by name."""
-        arguments = {
-            "instanceName": name,
-            "fmuType": fmi2CoSimulation,
-            "fmuGUID": self.guid,
-            "fmuResourceLocation": resources_of(self.unzipDirectory),
-        } | instead
-        encoded = [value.encode() if isinstance(value, str) else value for value in arguments.values()]
-        return self.fmi2Instantiate(*encoded, byref(self.callbacks), False, True)
 
 
 class Fmi2Instance(Instance):

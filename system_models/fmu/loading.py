@@ -29,8 +29,3 @@ def load(library: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
     """Return library(*arguments, **named), one at a time."""
     with _LOADING:
         return library(*arguments, **named)
-
-
-def resources_of(folder: str | Path) -> str:
-    """Return the location of the resources of an unpacked FMU, as a URI."""
-    return Path(folder, "resources").absolute().as_uri()

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..fmu.errors import CouplingError
 from ..fmu.instance import Instance
-from ..fmu.model import NUMBERS
+from ..fmu.kinds import NUMBERS
 from ..numerics.control import scale, wrms
 from ..numerics.quasi_newton import QuasiNewton
 from .sequence import sorted_loops

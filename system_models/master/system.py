@@ -12,7 +12,8 @@ from fmpy.model_description import ModelVariable
 from contact_core.scene.toml import did_you_mean
 
 from ..fmu.errors import CouplingError
-from ..fmu.model import NUMBERS, Model, kind
+from ..fmu.kinds import NUMBERS, kind
+from ..fmu.model import Model
 from . import unit_checks
 
 Value = float | int | bool | str

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import h5netcdf
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
@@ -79,8 +80,8 @@ def find(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:
 def attributes_of(file: Path) -> dict[str, Any] | None:
     """Return the attributes of a result's netCDF file; None if there is none, or it was cut."""
     try:
-        with xr.open_dataset(file, engine="h5netcdf") as dataset:
-            return dict(dataset.attrs)
+        with h5netcdf.File(file, "r") as opened:  # xarray would look at every variable, too
+            return dict(opened.attrs)
     except (OSError, ValueError):
         return None
 
@@ -109,9 +110,9 @@ def write(
 
 def write_csv(rows: xr.Dataset, path: Path) -> Path:
     """Write a dataset as CSV, a row for each point of its dimensions, and return its path."""
-    columns = xr.broadcast(*(rows[column] for column in (*rows.dims, *rows.data_vars)))
+    columns = {name: rows.variables[name].set_dims(dict(rows.sizes)) for name in (*rows.dims, *rows.data_vars)}
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(f"{column.name} [{column.attrs['units']}]" for column in columns)
-        writer.writerows(zip(*(column.values.ravel().tolist() for column in columns), strict=True))
+        writer.writerow(f"{name} [{column.attrs['units']}]" for name, column in columns.items())
+        writer.writerows(zip(*(column.values.ravel().tolist() for column in columns.values()), strict=True))
     return path

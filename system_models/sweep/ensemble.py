@@ -8,6 +8,7 @@ import re
 from collections.abc import Sequence
 
 import numpy as np
+import scipy  # its parts are loaded at their first use
 import xarray as xr
 
 from ..store.results import BAND
@@ -28,15 +29,13 @@ def averaged(plan: Plan, dataset: xr.Dataset, outputs: Sequence[str]) -> xr.Data
 
     A band is the half width that holds the mean with 95 %; it and `_sd` are nan of a single patch.
     """
-    from scipy.stats import t
-
     keys = patches_of(plan)
     found: dict[str, xr.DataArray] = {}
     for name in outputs:
-        values = dataset[name].astype(float)
+        values = dataset[name].reset_coords(drop=True).astype(float)  # half widths would be reduced, too
         count = values.notnull().sum(keys)
         sd = values.std(keys, ddof=1).where(count > 1)
-        factor = xr.apply_ufunc(lambda n: t.ppf(0.975, np.maximum(n - 1, 1)) / np.sqrt(np.maximum(n, 1)), count)
+        factor = scipy.special.stdtrit(np.maximum(count - 1, 1), 0.975) / np.sqrt(np.maximum(count, 1))
         said = {**values.attrs}
         found |= {
             name: values.mean(keys).assign_attrs(said),

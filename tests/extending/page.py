@@ -1,5 +1,6 @@
 """docs/extending.md as changes of files: its blocks are applied to a copy of the packages."""
 
+import json
 import os
 import re
 import shlex
@@ -12,6 +13,40 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("contact_core", "fmu_src", "system_models")
 PAGE = (ROOT / "docs" / "extending.md").read_text("utf-8")
+# runs code that it is sent, each in a copy of itself as it is by then, so that nothing is imported twice
+_FORKS = """
+import json, os, sys, traceback
+
+def run(code):
+    try:
+        exec(compile(code, "page", "exec"), {"__name__": "page"})
+        return 0
+    except SystemExit as end:
+        return int(end.code or 0)
+    except BaseException:
+        traceback.print_exc()
+        return 1
+    finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
+
+answers = os.fdopen(os.dup(1), "w")
+commands = os.fdopen(os.dup(0))
+os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+for line in commands:
+    code, fork = json.loads(line)
+    for place, name in enumerate(("out.txt", "err.txt"), 1):
+        file = os.open(name, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+        os.dup2(file, place)
+        os.close(file)
+    if not fork:
+        status = run(code)
+    elif child := os.fork():
+        status = os.waitpid(child, 0)[1]
+    else:
+        os._exit(run(code))
+    print(status, file=answers, flush=True)
+"""
 _BLOCK = re.compile(r"(?:^`([^`\n]+)`, (new|change|at the end):\n\n)?^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 
 
@@ -41,6 +76,7 @@ class Tree:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self._process: subprocess.Popen[str] | None = None
         for name in PACKAGES:
             apart = "kernels" if name == "contact_core" else ""
             skipped = shutil.ignore_patterns("*.so", "*.dll", apart)
@@ -85,25 +121,42 @@ class Tree:
                     found.add(relative.as_posix())
         return found
 
+    def warmed(self, code: str) -> "Tree":
+        """Let each run begin where this code ends."""
+        self._ask(code, fork=False, fails=False)
+        return self
+
     def python(self, code: str, fails: bool = False) -> str:
         """Run code against the copy; return what it prints, or its error."""
-        return self._run([sys.executable, "-c", code], fails)
+        return self._ask(code, fork=True, fails=fails)
 
     def command(self, line: str, fails: bool = False) -> str:
         """Run `tribofmu` against the copy."""
         program, *arguments = shlex.split(line)
         assert program == "tribofmu"
-        return self._run([sys.executable, "-m", "system_models.cli.main", *arguments], fails)
+        code = f"import sys; from system_models.cli.main import main; sys.exit(main({arguments!r}))"
+        return self.python(code, fails)
 
-    def _run(self, command: list[str], fails: bool) -> str:
+    def close(self) -> None:
+        """End the process that runs code."""
+        if self._process:
+            self._process.communicate()
+
+    def _ask(self, code: str, fork: bool, fails: bool) -> str:
         work = self.folder / "work"
         work.mkdir(exist_ok=True)
-        path = os.pathsep.join(map(str, (self.folder, ROOT)))
-        # what is compiled to bytes stays compiled from one run to the next
-        environment = os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": ""}
-        run = subprocess.run(command, cwd=work, env=environment, capture_output=True, text=True, check=False)
-        assert (run.returncode != 0) == fails, run.stderr
-        return run.stderr if fails else run.stdout
+        if not self._process:
+            path = os.pathsep.join(map(str, (self.folder, ROOT)))
+            # what is compiled to bytes stays compiled from one run to the next
+            environment = os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": ""}
+            pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+            self._process = subprocess.Popen([sys.executable, "-c", _FORKS], cwd=work, env=environment, **pipes)
+        assert self._process.stdin and self._process.stdout
+        print(json.dumps([code, fork]), file=self._process.stdin, flush=True)
+        status = json.loads(self._process.stdout.readline())
+        out, err = ((work / f"{name}.txt").read_text("utf-8") for name in ("out", "err"))
+        assert (status != 0) == fails, err
+        return err if fails else out
 
 
 def source(package: str) -> Path:

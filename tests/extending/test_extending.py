@@ -3,6 +3,7 @@
 import csv
 import json
 import shutil
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +40,14 @@ CHEAP, HARD = {_CHEAP!r}, {HARD!r}
 def scene_of(name="mtm_zddp", **changes):
     return Scene.from_toml(name, CHEAP | {{key.replace("__", "."): value for key, value in changes.items()}})
 """
+_LOADED = """
+from matplotlib.figure import Figure
+from system_models.run import contact, report
+from system_models.store import results
+Figure.savefig = lambda figure, file, **options: open(file, "wb").close()
+scene = scene_of()
+advance(scene, scene.operation.point, initial_state(scene), 1.0)
+"""
 _FMU = """
 import zipfile
 from pathlib import Path
@@ -60,9 +69,27 @@ def extended(folder: Path, *titles: str, without: str = "") -> Tree:
 
 
 @pytest.fixture(scope="module")
-def tree(tmp_path_factory: pytest.TempPathFactory) -> Tree:
-    """Return the packages with all extensions of the page."""
-    return extended(tmp_path_factory.mktemp("tree"), LAW, SHAPE, OUTPUT, MACHINE, SCHEME)
+def tree(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Tree]:
+    """Return the packages with all extensions of the page, with kernels loaded, and pictures that are not rendered."""
+    whole = extended(tmp_path_factory.mktemp("tree"), LAW, SHAPE, OUTPUT, MACHINE, SCHEME)
+    try:
+        yield whole.warmed(_START + _FMU + _LOADED)
+    finally:
+        whole.close()
+
+
+@pytest.fixture
+def extend(tmp_path: Path) -> Iterator[Callable[..., Tree]]:
+    """Return what extends the packages by sections of the page, without one of their files."""
+    trees: list[Tree] = []
+
+    def make(*titles: str, without: str) -> Tree:
+        trees.append(extended(tmp_path, *titles, without=without))
+        return trees[-1]
+
+    yield make
+    for each in trees:
+        each.close()
 
 
 def found_by(tree: Tree, code: str) -> Any:
@@ -136,7 +163,7 @@ from pathlib import Path
 sys.path.append({str(ROOT)!r})
 from benchmarks.fmu.native_contact import NativeContact, differences
 scene = scene_of(tribofilm__set="quinn_80c").at_level("regression")
-contact = NativeContact(scene, Path.cwd())
+contact = NativeContact(scene, Path.cwd(), "gcc", "-O0")
 print(json.dumps(["quinn_evolve" in contact.sources["contact.c"], differences(scene, contact, 2, 5)]))
 """,
     )
@@ -181,8 +208,8 @@ sys.exit(pytest.main([battery, "-vv", "-p", "no:cacheprovider", "-k", "tribofilm
     assert "test_a_tribofilm_after_two_times_is_that_after_their_sum PASSED" in printed
 
 
-def test_a_law_without_its_entry_is_refused_by_name(tmp_path: Path) -> None:
-    tree = extended(tmp_path, LAW, without="contact_core/laws/tribofilm/__init__.py")
+def test_a_law_without_its_entry_is_refused_by_name(extend: Callable[..., Tree]) -> None:
+    tree = extend(LAW, without="contact_core/laws/tribofilm/__init__.py")
     said = tree.python(_START + 'scene_of(tribofilm__set="quinn_80c")', fails=True)
     assert "[tribofilm] has no model 'quinn'." in said
     assert "Known are none, ghanbarzadeh" in said
@@ -227,8 +254,8 @@ print(json.dumps([*found, *package_of(barrel)]))
     assert "A roller of the length l with a crown" in page
 
 
-def test_a_shape_without_its_entry_is_refused_by_name(tmp_path: Path) -> None:
-    tree = extended(tmp_path, SHAPE, without="contact_core/shapes/__init__.py")
+def test_a_shape_without_its_entry_is_refused_by_name(extend: Callable[..., Tree]) -> None:
+    tree = extend(SHAPE, without="contact_core/shapes/__init__.py")
     said = tree.python(_START + 'scene_of(geometry__model="barrel")', fails=True)
     assert "[geometry] has no model 'barrel'." in said
 
@@ -270,8 +297,8 @@ def test_the_output_is_in_the_fmu(tree: Tree) -> None:
 
 
 @pytest.mark.parametrize("without", [OUTPUT_ROW, "contact_core/deterministic/observed.py"])
-def test_an_output_is_a_row_and_what_computes_it(tmp_path: Path, without: str) -> None:
-    tree = extended(tmp_path, OUTPUT, without=without)
+def test_an_output_is_a_row_and_what_computes_it(extend: Callable[..., Tree], without: str) -> None:
+    tree = extend(OUTPUT, without=without)
     code = 'scene = scene_of(control__driver="dry")\nadvance(scene, scene.operation.point, initial_state(scene), 1.0)'
     said = tree.python(_START + code, fails=True)
     assert "asperity_pressure: an output of a block has a trend in the quantity table, and is computed." in said
@@ -306,8 +333,8 @@ reading.assemble(machine)
     assert "load" in said.splitlines()[-1]
 
 
-def test_a_machine_without_its_entry_is_refused_by_kind(tmp_path: Path) -> None:
-    tree = extended(tmp_path, MACHINE, without=REGISTRY)
+def test_a_machine_without_its_entry_is_refused_by_kind(extend: Callable[..., Tree]) -> None:
+    tree = extend(MACHINE, without=REGISTRY)
     said = tree.command("tribofmu run pin_rig", fails=True)
     assert "kind = 'pin_rig' is not one of ball_on_disc" in said
 
@@ -375,8 +402,8 @@ def test_a_machine_is_coupled_by_the_scheme(tree: Tree) -> None:
     assert "terations" in printed
 
 
-def test_a_scheme_without_its_entry_is_refused_by_name(tmp_path: Path) -> None:
-    tree = extended(tmp_path, MACHINE, SCHEME, without="system_models/numerics/iteration.py")
+def test_a_scheme_without_its_entry_is_refused_by_name(extend: Callable[..., Tree]) -> None:
+    tree = extend(MACHINE, SCHEME, without="system_models/numerics/iteration.py")
     (line,) = examples(SCHEME, "sh")
     said = tree.command(line, fails=True)
     assert "'relaxed'" in said

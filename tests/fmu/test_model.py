@@ -7,7 +7,8 @@ import pytest
 from comparison import approx
 
 from benchmarks.models import build
-from system_models.fmu.model import Model, kind
+from system_models.fmu.kinds import kind
+from system_models.fmu.model import Model
 from system_models.master.system import System
 
 TYPES = {

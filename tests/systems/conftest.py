@@ -1,16 +1,21 @@
 """A contact on a coarse grid, its FMU, and a short run of it through a duty with steps; small FMUs with a defect."""
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from pathlib import Path
+from typing import IO, Any
 
 import pytest
 import xarray as xr
+from built import Built
 from checking import SLAVE, edited, replaced
+from matplotlib.figure import Figure
+from parsed_page import GEARS
 from pythonfmu.builder import FmuBuilder
 
 from contact_core import Scene
-from fmu_src.package.build import build
+from system_models.cli.main import main
 from system_models.run.contact import run
 from system_models.run.duty import Duty
 
@@ -22,6 +27,27 @@ COARSE = {
     "operation.interval": "30 s",
 }
 STEPS = "time [s],load [N],temperature [degC]\n0,53.7,80\n40,30,82\n"
+RENDERING = Figure.savefig
+
+
+def unrendered(figure: Figure, file: str | Path | IO[bytes], **options: Any) -> None:
+    """Write the begin of a picture."""
+    with nullcontext(file) if hasattr(file, "write") else Path(file).open("wb") as out:
+        out.write(b"\x89PNG\r\n\x1a\n")
+
+
+@pytest.fixture(scope="package", autouse=True)
+def _pictures_are_drawn_and_not_rendered() -> Iterator[None]:
+    """Rendering is half of the time of a short run; tests of pictures ask for `rendered`."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Figure, "savefig", unrendered)
+        yield
+
+
+@pytest.fixture
+def rendered(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let pictures be rendered."""
+    monkeypatch.setattr(Figure, "savefig", RENDERING)
 
 
 @pytest.fixture(scope="session")
@@ -37,13 +63,23 @@ def duty(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Duty:
 
 
 @pytest.fixture(scope="session")
-def fmu(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build(scene, tmp_path_factory.mktemp("fmu") / "contact.fmu", "embedded")
+def fmu(scene: Scene, built: Built) -> Path:
+    return built.fmu(scene, "embedded")
 
 
 @pytest.fixture(scope="session")
 def dataset(fmu: Path, scene: Scene, duty: Duty) -> xr.Dataset:
     return run(fmu, duty, scene.operation.duration, scene.operation.interval)
+
+
+@pytest.fixture(scope="session")
+def gears(built: Built) -> Path:
+    """The folder of the results of a short run of gears."""
+
+    def make(folder: Path) -> None:
+        assert main([*GEARS, "--out", str(folder)]) == 0
+
+    return built.folder(GEARS, make)
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""What pages of results have in them, and a coarse grid for quick runs."""
+"""What pages of results have in them, a coarse grid for quick runs, and a short run of gears."""
 
 import json
 from html.parser import HTMLParser
@@ -8,6 +8,7 @@ COARSE = [
     *("film.points=33", "operation.interval=30s"),
     *(f"surface_{body}.correlation_length=16um" for body in (1, 2)),
 ]
+GEARS = ["run", "gear_fzg_c", "--unchecked", "--set", "mesh.stations=4", "--hours", "0.02"]
 
 
 class Parsed(HTMLParser):

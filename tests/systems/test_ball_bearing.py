@@ -24,7 +24,7 @@ from system_models.master import simulate
 Result = tuple[Assembly, xr.Dataset]
 LIGHTER = 1 / 60  # heat capacities that many times smaller: minutes become seconds
 MEMORYLESS = {"contact.tribofilm.model": "none", "contact.wear.bare": "0", "contact.wear.film": "0"}
-COARSE = {"simulate.tolerance": "4e-3", "simulate.order": "0"}  # no speed is carried on to below 0 by long steps
+COARSE = {"simulate.tolerance": "2e-2", "simulate.order": "0"}  # no speed is carried on to below 0 by long steps
 CYCLE = "time [s],speed [rpm],load [N]\n0,0,800\n1,40,2000\n2,20,3000\n3,0,800\n4,0,800\n5,60,1500\n6,60,1500\n"
 
 
@@ -42,12 +42,12 @@ def lighter(machine: reading.Machine) -> reading.Machine:
 
 @pytest.fixture(scope="module")
 def warm(tmp_path_factory: pytest.TempPathFactory) -> Result:
-    changes = {"bearing.levels": "2", "duty.duration": "3 min", "simulate.max_step": "6 s"} | COARSE
+    changes = {"bearing.levels": "2", "duty.duration": "3 min", "simulate.max_step": "12 s"} | COARSE
     return run(tmp_path_factory.mktemp("warm"), lighter(reading.read("bearing_209", changes)))
 
 
 def starting(folder: Path, changes: dict[str, str]) -> BearingRun:
-    few = {"bearing.levels": "1", "duty.repeat": "4", "duty.speed": "40 rpm", "simulate.max_step": "1 s"} | COARSE
+    few = {"bearing.levels": "1", "duty.repeat": "3", "duty.speed": "40 rpm", "simulate.max_step": "2 s"} | COARSE
     return BearingRun(*run(folder, reading.read("bearing_209_start_stop", few | changes)))
 
 
@@ -149,7 +149,7 @@ def test_balls_without_load_and_at_rest_have_no_film_to_show(warm: Result, start
 
 
 def test_every_start_is_found(starts: BearingRun) -> None:
-    assert len(starts.starts) == 4
+    assert len(starts.starts) == 3
     for rows in starts.starts:
         assert not starts.runs[rows[0]]
         assert starts.speed[rows[-1]] > 0.98 * 40.0 * math.pi / 30.0
@@ -160,7 +160,7 @@ def test_a_shaft_that_is_reversed_starts_again(starts: BearingRun) -> None:
     speed = starts.dataset["shaft.speed"].copy()
     speed[there + 1 : rest] *= -1.0
     reversed_ = BearingRun(starts.assembly, starts.dataset.assign({"shaft.speed": speed}))
-    assert len(reversed_.starts) == 5
+    assert len(reversed_.starts) == 4
     assert all(np.ptp(np.sign(speed.values[rows[starts.runs[rows]]])) == 0.0 for rows in reversed_.starts)
 
 
@@ -178,7 +178,7 @@ def test_the_report_compares_starts_from_the_second_on(starts: BearingRun) -> No
     said = "\n".join(ball_bearing_report.lines(starts.assembly, starts.dataset))
     second, last = 1e3 * starts.start_peaks[[1, -1]]
     assert (
-        f"4 starts: largest friction torque while the shaft turns {second:.3g} N mm in the second, {last:.3g}" in said
+        f"3 starts: largest friction torque while the shaft turns {second:.3g} N mm in the second, {last:.3g}" in said
     )
 
 
@@ -198,14 +198,14 @@ def test_the_next_start_feels_the_film_that_the_last_has_left(starts: BearingRun
     assert (np.diff(film) > 1e-9).all()
     assert (np.diff(wear) > 0.0).all()
     forgetful = starting(tmp_path / "none", MEMORYLESS)
-    finer = starting(tmp_path / "fine", {"simulate.max_step": "0.5 s"})
+    finer = starting(tmp_path / "fine", {"simulate.max_step": "1 s"})
     remembered, forgotten, fine = (each.of("bearing.friction_torque")[each.last] for each in (starts, forgetful, finer))
     assert abs(remembered - forgotten) > 10.0 * abs(remembered - fine)
     assert abs(remembered / forgotten - 1.0) > 1e-3  # oil carries most of the load of lapped bodies
 
 
 @pytest.mark.parametrize("duty", ["cycle", "standstill"])
-def test_the_report_takes_any_duty(duty: str, tmp_path: Path) -> None:
+def test_the_report_takes_any_duty(duty: str, tmp_path: Path, request: pytest.FixtureRequest) -> None:
     machine = reading.read("bearing_209", {"bearing.levels": "1"} | COARSE)
     if duty == "cycle":
         (tmp_path / "cycle.csv").write_text(CYCLE)
@@ -217,12 +217,11 @@ def test_the_report_takes_any_duty(duty: str, tmp_path: Path) -> None:
     assert "inner_1" in said
     assert ("2 starts" in said) == (duty == "cycle")
     assert ("does not turn" in said) == (duty == "standstill")
-    _check_pictures(ball_bearing_report.write(assembly, dataset, tmp_path))
-
-
-def _check_pictures(paths: list[Path]) -> None:
+    if duty == "cycle":
+        request.getfixturevalue("rendered")
+    paths = ball_bearing_report.write(assembly, dataset, tmp_path)
     assert [path.name for path in paths] == ["overview.png", "load_zone.png", "surfaces.png"]
-    for path in paths:
+    for path in paths if duty == "cycle" else ():
         picture: Any = imread(path)
         assert picture[..., :3].std() > 0.02
 

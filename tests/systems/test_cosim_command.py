@@ -75,6 +75,7 @@ def result(folder: str) -> xr.Dataset:
         return dataset.load()
 
 
+@pytest.mark.usefixtures("rendered")
 def test_a_simulation_prints_tables_and_writes_three_files(car: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["cosim", car]) == 0
     out, err = capsys.readouterr()
@@ -253,6 +254,7 @@ def test_any_other_system_is_another_simulation_to_a_checkpoint(fmus: dict[str, 
     assert saving.identity(System(fmus, **whole), {"step_size": 0.2}) != same
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
 def test_a_simulation_that_is_killed_again_and_again_gives_the_same_rows(
     car: str, capsys: pytest.CaptureFixture[str], no_picture: None

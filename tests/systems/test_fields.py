@@ -107,9 +107,7 @@ def test_the_file_gives_back_every_map_compressed_and_the_table_stays(
 ) -> None:
     described = origin.with_scene(plain, scene, changing, 7)
     netcdf, table = results.write(described, tmp_path, maps=found)
-    alone = tmp_path / "alone"
-    alone.mkdir()
-    assert results.write(described, alone)[1].read_bytes() == table.read_bytes()
+    assert results.write_csv(described, tmp_path / "alone.csv").read_bytes() == table.read_bytes()
     with xr.open_dataset(netcdf, engine="h5netcdf") as read:
         xr.testing.assert_identical(read[list(found.data_vars)].drop_attrs(deep=False).load(), found)
         assert read.attrs["fields"] == 7
@@ -167,7 +165,7 @@ def test_patches_lie_under_the_contact_at_their_offsets(found: xr.Dataset, scene
     assert all(abs(above(beside)) < 0.5 * above(0) for beside in (-9, -5, 5, 9))
 
 
-def test_a_run_with_fields_goes_on_from_every_row_bit_for_bit(
+def test_a_run_with_fields_goes_on_from_its_rows_bit_for_bit(
     fmu: Path,
     scene: Scene,
     changing: Duty,
@@ -194,8 +192,8 @@ def test_a_run_with_fields_goes_on_from_every_row_bit_for_bit(
         Checkpoint.resume(saved[2], origin.identity(scene, changing))
     sizes = [(left / "checkpoint.kept").stat().st_size for left in saved]
     assert sorted(set(sizes)) == sizes, "the file of the records only grows"
-    for count, left in enumerate(saved, 1):
-        checkpoint, fields = Checkpoint.resume(left, who), every_row(scene, changing)
+    for count in (1, 4, 5, 7):
+        checkpoint, fields = Checkpoint.resume(saved[count - 1], who), every_row(scene, changing)
         assert len(checkpoint.kept) == count
         caplog.clear()
         run(fmu, changing, END, 50.0, None, checkpoint, fields)
@@ -211,6 +209,7 @@ def no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(track_picture, "write", lambda dataset, maps, path: path)
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
 def test_a_run_with_fields_that_is_killed_again_and_again_writes_the_same_files(
     tmp_path: Path, coarse: list[str], no_pictures: None
@@ -241,7 +240,7 @@ def test_other_fields_are_another_run_and_a_result_without_them_is_not_finished(
     tmp_path: Path, coarse: list[str], capsys: pytest.CaptureFixture[str], no_pictures: None
 ) -> None:
     still = [part for law in ("tribofilm", "wear", "heat") for part in ("--set", f"{law}.model=none")]
-    command = ["run", "mtm_zddp", *coarse, *still, "--resume", "--out", str(tmp_path)]
+    command = ["run", "mtm_zddp", *coarse, *still, "--hours", "0.005", "--resume", "--out", str(tmp_path)]
     assert main(command) == 0
     capsys.readouterr()
     assert main([*command, "--fields", "1"]) == 0
@@ -250,7 +249,7 @@ def test_other_fields_are_another_run_and_a_result_without_them_is_not_finished(
         assert main(same) == 0
         assert "This run is finished" in capsys.readouterr().err
     with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as read:
-        assert read["field_time"].values.tolist() == [72.0]
+        assert read["field_time"].values.tolist() == [18.0]
 
 
 @pytest.mark.parametrize(
@@ -346,6 +345,7 @@ def shown(figure: Figure) -> dict[str, Any]:
     return {axis.get_title(): axis for part in figure.subfigs for axis in part.axes if axis.get_visible()}
 
 
+@pytest.mark.usefixtures("rendered")
 def test_the_picture_shows_pads_tracks_profiles_and_coverage(
     found: xr.Dataset, plain: xr.Dataset, tmp_path: Path
 ) -> None:

@@ -22,14 +22,14 @@ from system_models.machines.gear_pair.textbook import ohlendorf
 from system_models.master import simulate
 
 STATIONS = 6
-SMALL = {"mesh.stations": f"{STATIONS}", "simulate.max_step": '"20 s"', "gearbox.thermostats": "[]"}
+SMALL = {"simulate.max_step": '"20 s"', "gearbox.thermostats": "[]"}
 CONSTANT = {"speed": "2250 rpm", "torque": "135.3 N m", "ambient": "25 degC"}
 STAGES = {**CONSTANT, "duration": "4 min", "steps": [{"time": "2 min", "torque": "239.25 N m"}]}
 Array = NDArray[np.float64]
 
 
-def assembled(duty: dict[str, Any], folder: Path = Path()) -> Assembly:
-    machine = reading.read("gear_fzg_c", SMALL)._replace(folder=folder)
+def assembled(duty: dict[str, Any], folder: Path = Path(), stations: int = STATIONS) -> Assembly:
+    machine = reading.read("gear_fzg_c", SMALL | {"mesh.stations": f"{stations}"})._replace(folder=folder)
     machine.table["duty"] = duty
     return reading.assemble(machine)
 
@@ -128,6 +128,7 @@ def test_pressures_at_the_pitch_point_are_those_of_the_load_stages(record: Recor
     assert found == approx([1108.0, 1474.0], rel=1e-3)
 
 
+@pytest.mark.usefixtures("rendered")
 def test_the_report_has_a_row_for_each_stage_and_four_pictures(record: Record, tmp_path: Path) -> None:
     lines = gear_pair_report.lines(record.assembly, record.dataset)
     table = lines[2 : lines.index("")]
@@ -180,7 +181,7 @@ def test_the_report_gives_a_run_of_the_micropitting_test_its_class(tmp_path: Pat
 
 def test_starts_and_stops_wear_the_flanks_anew_each_time(tmp_path: Path) -> None:
     duty = {**CONSTANT, "start_stop": {"signals": ["speed"], "run": "20 s", "standstill": "20 s"}, "repeat": 2}
-    assembly = assembled(duty)
+    assembly = assembled(duty, stations=4)
     record = Record(assembly, run(assembly, tmp_path))
     assert len(record.stages) == 2
     depths = [record.along("wear_depth_1")[stage.last].max() for stage in record.stages]
@@ -195,7 +196,7 @@ def test_a_duty_from_a_table_is_followed(tmp_path: Path) -> None:
     (tmp_path / "cycle.csv").write_text(
         "time [s],speed [rpm],torque [N m]\n0,1000,50\n20,2000,100\n40,1500,0\n60,1500,0\n"
     )
-    assembly = assembled({"file": "cycle.csv", "ambient": "25 degC"}, tmp_path)
+    assembly = assembled({"file": "cycle.csv", "ambient": "25 degC"}, tmp_path, 4)
     record = Record(assembly, run(assembly, tmp_path))
     reached = [
         (30.0 / np.pi * record.of("shafts.speed_1")[s.last], record.of("shafts.mesh_torque")[s.last])
@@ -205,7 +206,7 @@ def test_a_duty_from_a_table_is_followed(tmp_path: Path) -> None:
 
 
 def test_a_duty_without_load_is_told_so(tmp_path: Path) -> None:
-    assembly = assembled({**CONSTANT, "torque": "0 N m", "duration": "10 s"})
+    assembly = assembled({**CONSTANT, "torque": "0 N m", "duration": "10 s"}, stations=4)
     dataset = run(assembly, tmp_path)
     assert "no stretch" in gear_pair_report.lines(assembly, dataset)[0]
     assert len(gear_pair_pictures.overview(Record(assembly, dataset)).axes) == 8

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from comparison import approx
-from parsed_page import COARSE, Parsed, self_contained
+from parsed_page import COARSE, GEARS, Parsed, self_contained
 
 from system_models.cli.main import main
 from system_models.html_report.opened import open_run
@@ -33,12 +33,8 @@ def test_a_machine_is_shown_with_its_report_its_parts_and_its_contact(tmp_path: 
     assert friction["y"][-1] == approx(float(run.dataset["contact.friction_coefficient"].values[-1]), rel=1e-4)
 
 
-GEARS = ["run", "gear_fzg_c", "--unchecked", "--set", "mesh.stations=4"]
-
-
-def test_contacts_of_machines_have_errors_by_cause_flags_in_numbers_and_assumed_values(tmp_path: Path) -> None:
-    assert main([*GEARS, "--hours", "0.02", "--out", str(tmp_path)]) == 0
-    run = open_run(tmp_path)
+def test_contacts_of_machines_have_errors_by_cause_flags_in_numbers_and_assumed_values(gears: Path) -> None:
+    run = open_run(gears)
     assert run.machine is not None
     halves = run.causes["flank_02"]["h_c"]
     assert halves["curves"] == approx(float(run.dataset["flank_02.h_c_error"].values[-1]), rel=1e-9)
@@ -69,13 +65,13 @@ def test_an_interrupted_machine_has_its_tables(tmp_path: Path, monkeypatch: pyte
 
     def saved_and_interrupted(self: Checkpoint, time: float, *rest: Any) -> None:
         save(self, time, *rest)
-        if time >= 20.0:
+        if time >= 10.0:
             raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
         patch.setattr(Checkpoint, "save", saved_and_interrupted)
         patch.setattr(Checkpoint, "due", lambda self: True)
-        assert main([*GEARS, "--hours", "0.02", "--out", str(tmp_path)]) == 130
+        assert main([*GEARS, "--out", str(tmp_path)]) == 130
     run = open_run(tmp_path)
     assert (run.finished, run.planned) == (False, 72.0)
     assert run.machine is not None and run.title.startswith("FZG type C gears")

@@ -24,7 +24,6 @@ from system_models.machines.gear_pair.report import _SAFETY_HEADS as SAFETY
 from system_models.machines.reading import assemble, read
 from system_models.machines.registry import KINDS
 
-GEARS = {"mesh.stations": "4", "simulate.stop_time": '"72 s"'}
 PLAIN = ("stage", "until", "contacts", "lift", "load", "oil", "tribofilm", "wear", "friction")  # say what they are
 
 
@@ -81,27 +80,23 @@ def test_contacts_without_a_load_say_so() -> None:
 
 
 @pytest.fixture(scope="module")
-def gears(tmp_path_factory: pytest.TempPathFactory) -> tuple[Assembly, xr.Dataset]:
-    """A short run of gears."""
-    out = tmp_path_factory.mktemp("gears")
-    settings = [f"{key}={value.strip(chr(34))}" for key, value in GEARS.items()]
-    assert main(["run", "gear_fzg_c", "--unchecked", "--set", *settings, "--out", str(out)]) == 0
-    run = open_run(out)
+def ran(gears: Path) -> tuple[Assembly, xr.Dataset]:
+    run = open_run(gears)
     assert run.machine is not None
     return run.machine.assembly, run.dataset
 
 
 @pytest.mark.parametrize("output", ["load", "speed_1", "speed_2"])
-def test_what_is_foreseen_is_what_the_run_settles_to(gears: tuple[Assembly, xr.Dataset], output: str) -> None:
-    assembly, dataset = gears
+def test_what_is_foreseen_is_what_the_run_settles_to(ran: tuple[Assembly, xr.Dataset], output: str) -> None:
+    assembly, dataset = ran
     speed, torque = (float(dataset[f"shafts.{name}"].values[-1]) for name in ("speed_1", "mesh_torque"))
     found = KINDS["gear_pair"].foreseen(assembly.parts, {"speed": speed, "torque": torque})
     for name in assembly.contacts:
         assert found[name][output] == approx(float(dataset[f"{name}.{output}"].values[-1]), rel=1e-4), name
 
 
-def test_flags_name_contacts_rows_quantity_and_limit(gears: tuple[Assembly, xr.Dataset]) -> None:
-    assembly, dataset = gears
+def test_flags_name_contacts_rows_quantity_and_limit(ran: tuple[Assembly, xr.Dataset]) -> None:
+    assembly, dataset = ran
     changed = dataset.copy(deep=True)
     for name in assembly.contacts:
         changed[f"{name}.range_flags"].values[:] = 0
@@ -112,8 +107,8 @@ def test_flags_name_contacts_rows_quantity_and_limit(gears: tuple[Assembly, xr.D
     assert line.endswith("(flank_03: 130 degC: fitted from 60 to 120 degC).")
 
 
-def test_every_flag_of_a_machine_is_told_whatever_its_numbers(gears: tuple[Assembly, xr.Dataset]) -> None:
-    assembly, dataset = gears
+def test_every_flag_of_a_machine_is_told_whatever_its_numbers(ran: tuple[Assembly, xr.Dataset]) -> None:
+    assembly, dataset = ran
     changed = dataset.copy(deep=True)
     for name in assembly.contacts:
         changed[f"{name}.range_flags"].values[:] = int(sum(RangeFlag))
@@ -122,8 +117,8 @@ def test_every_flag_of_a_machine_is_told_whatever_its_numbers(gears: tuple[Assem
     assert all(line.startswith("Range, all contacts, all rows: ") for line in lines)
 
 
-def test_the_verdict_names_the_contact_that_knows_least(gears: tuple[Assembly, xr.Dataset]) -> None:
-    assembly, dataset = gears
+def test_the_verdict_names_the_contact_that_knows_least(ran: tuple[Assembly, xr.Dataset]) -> None:
+    assembly, dataset = ran
     changed = dataset.copy(deep=True)
     for name in assembly.contacts:
         values = {"friction_coefficient": (0.05, 0.005), "h_c": (1e-7, 1e-8), "contact_load_ratio": (0.1, 0.6)}

@@ -3,6 +3,7 @@
 import json
 import math
 import re
+import shutil
 import sys
 from dataclasses import replace
 from itertools import islice
@@ -42,6 +43,17 @@ def command(folder: Path, *more: str) -> int:
     return main(["map", "mtm_zddp", "--out", str(folder), *RANGES, *more, *CHANGES])
 
 
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a map that is accurate to 8 %."""
+    folder = tmp_path_factory.mktemp("map")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(map_build, "solve", made_up)
+        assert command(folder, "--accuracy", "8 %") == 0
+    return folder
+
+
+@pytest.mark.usefixtures("rendered")
 def test_a_map_is_made_until_it_is_accurate_and_corrects_the_scene_that_names_it(
     tmp_path: Path, solved: list[int], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -62,40 +74,33 @@ def test_a_map_is_made_until_it_is_accurate_and_corrects_the_scene_that_names_it
     assert outputs.error_friction < 0.1
 
 
-def test_held_back_histories_leave_no_trace_in_the_map(tmp_path: Path, solved: list[int]) -> None:
-    command(tmp_path, "--accuracy", "8 %")
-    first, *lines = (tmp_path / "histories.jsonl").read_text("utf-8").splitlines()
+def test_held_back_histories_leave_no_trace_in_the_map(finished: Path, tmp_path: Path, solved: list[int]) -> None:
+    first, *lines = (finished / "histories.jsonl").read_text("utf-8").splitlines()
     histories = [json.loads(line) for line in lines]
     held = [history for history in histories if is_held(order(), history["number"])]
     assert len(held) >= 2
     for knot in [knot for history in held for knot in history["knots"]]:
         knot["found"] = [2.0 * x for x in knot["found"]]
-    other = tmp_path / "other"
-    other.mkdir()
-    (other / "histories.jsonl").write_text("\n".join([first, *map(json.dumps, histories), ""]), "utf-8")
-    command(other, "--accuracy", "8 %")
-    assert read(str(other / "mtm_zddp.json")) == read(str(tmp_path / "mtm_zddp.json"))
+    (tmp_path / "histories.jsonl").write_text("\n".join([first, *map(json.dumps, histories), ""]), "utf-8")
+    command(tmp_path, "--accuracy", "8 %")
+    assert read(str(tmp_path / "mtm_zddp.json")) == read(str(finished / "mtm_zddp.json"))
 
 
-def test_a_build_that_goes_on_gives_the_map_of_one_that_was_not_interrupted(tmp_path: Path, solved: list[int]) -> None:
-    whole, cut = tmp_path / "whole", tmp_path / "cut"
-    command(whole, "--accuracy", "8 %")
-    count = len(solved)
-    cut.mkdir()
-    text = (whole / "histories.jsonl").read_text("utf-8")
-    lines = text.splitlines(keepends=True)
-    (cut / "histories.jsonl").write_text("".join(lines[:6]) + lines[6][:40], "utf-8")  # a kill in the middle of a line
-    solved.clear()
-    command(cut, "--accuracy", "8 %")
-    assert solved == list(range(5, count))
-    assert (cut / "mtm_zddp.json").read_text("utf-8") == (whole / "mtm_zddp.json").read_text("utf-8")
+def test_a_build_that_goes_on_gives_the_map_of_one_that_was_not_interrupted(
+    finished: Path, tmp_path: Path, solved: list[int]
+) -> None:
+    lines = (finished / "histories.jsonl").read_text("utf-8").splitlines(keepends=True)
+    cut = "".join(lines[:6]) + lines[6][:40]  # a kill in the middle of a line
+    (tmp_path / "histories.jsonl").write_text(cut, "utf-8")
+    command(tmp_path, "--accuracy", "8 %")
+    assert solved == list(range(5, len(lines) - 1))
+    assert (tmp_path / "mtm_zddp.json").read_text("utf-8") == (finished / "mtm_zddp.json").read_text("utf-8")
 
 
 def test_when_the_time_is_over_the_map_of_what_is_solved_is_written_and_the_exit_code_says_so(
-    tmp_path: Path, solved: list[int], capsys: pytest.CaptureFixture[str]
+    finished: Path, tmp_path: Path, solved: list[int], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    command(tmp_path, "--accuracy", "8 %")
-    solved.clear()
+    shutil.copy(finished / "histories.jsonl", tmp_path)
     assert command(tmp_path, "--accuracy", "0.1 %", "--time", "0.001s") == 1
     assert len(solved) <= 1
     assert "because the time was over" in capsys.readouterr().out
@@ -110,9 +115,9 @@ def test_too_few_histories_are_refused_and_kept(
 
 
 def test_histories_of_other_ranges_are_refused(
-    tmp_path: Path, solved: list[int], capsys: pytest.CaptureFixture[str]
+    finished: Path, tmp_path: Path, solved: list[int], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    command(tmp_path, "--accuracy", "8 %")
+    shutil.copy(finished / "histories.jsonl", tmp_path)
     assert command(tmp_path, "--load", "20:30") == 2
     assert "of another scene, or of other ranges" in capsys.readouterr().err
 

@@ -18,8 +18,8 @@ from system_models.master import export_ssp, simulate
 pytestmark = [pytest.mark.systems, pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")]
 
 FEW = {"mesh.stations": "4"}
-END, STEP = 8.0, 0.1  # s
-SAME = 1e-7  # of the largest value: rounding, after 80 steps
+END, STEP = 4.0, 0.1  # s
+SAME = 1e-7  # of the largest value: rounding, after 40 steps
 
 
 @pytest.fixture(autouse=True)

@@ -155,9 +155,11 @@ def test_invalid_steps_are_shaded(long_run: xr.Dataset) -> None:
         assert extent.intervalx == approx([6.0, 7.0])
 
 
+@pytest.mark.usefixtures("rendered")
 def test_the_overview_is_a_png(long_run: xr.Dataset, tmp_path: Path) -> None:
     path = report.write_overview(long_run, tmp_path / "overview.png")
     assert path.read_bytes().startswith(b"\x89PNG")
+    assert path.stat().st_size > 10_000
 
 
 def test_bodies_that_are_warmer_than_the_oil_are_told(long_run: xr.Dataset) -> None:

@@ -45,7 +45,7 @@ def bits(dataset: xr.Dataset) -> dict[Any, tuple[str, bytes]]:
     return {name: (str(values.dtype), values.values.tobytes()) for name, values in dataset.variables.items()}
 
 
-def test_a_run_goes_on_from_every_row_bit_for_bit(
+def test_a_run_goes_on_from_its_rows_bit_for_bit(
     fmu: Path, scene: Scene, faltering: Duty, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: Any
 ) -> None:
     who, folder = identity(scene, faltering), tmp_path / "run"
@@ -68,10 +68,10 @@ def test_a_run_goes_on_from_every_row_bit_for_bit(
     assert len(set(whole["iterations"].values)) > 2
     assert (~whole["valid"].values).sum() == 1
     told: list[float] = []
-    for count, left in enumerate(saved, 1):
+    for count in (1, 4, 6, 7):  # after the first row, without a change, after a refused one, at the end
         told.clear()
         caplog.clear()
-        checkpoint = Checkpoint.resume(left, who)
+        checkpoint = Checkpoint.resume(saved[count - 1], who)
         assert checkpoint.count == count
         assert bits(run(fmu, faltering, 200.0, 50.0, told.append, checkpoint)) == bits(whole)
         assert told == whole["time"].values[count:].tolist(), "only what is left is computed"
@@ -154,7 +154,7 @@ main(arguments)
 def test_a_run_that_is_killed_again_and_again_writes_the_same_files(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, coarse: list[str], no_picture: None
 ) -> None:
-    command = ["run", "mtm_zddp", *coarse, "--set", "operation.interval=8 s", "--resume"]
+    command = ["run", "mtm_zddp", *coarse, "--set", "operation.interval=12 s", "--resume"]
     whole, killed = tmp_path / "whole", tmp_path / "killed"
     assert main([*command, "--out", str(whole)]) == 0
     assert "There is no checkpoint" in capsys.readouterr().err
@@ -171,13 +171,13 @@ def test_a_run_that_is_killed_again_and_again_writes_the_same_files(
         assert {path.name for path in killed.iterdir()} >= {"checkpoint.tribofmu", "checkpoint.rows"}
     assert row == 5
     assert main([*command, "--out", str(killed)]) == 0
-    assert f"Continuing from '{killed / 'checkpoint.tribofmu'}' at 0.5 min" in capsys.readouterr().err
+    assert f"Continuing from '{killed / 'checkpoint.tribofmu'}' at 0.8 min" in capsys.readouterr().err
     for folder in (whole, killed):
         assert sorted(path.name for path in folder.iterdir()) == NAMES
     for name in NAMES:
         assert (whole / name).read_bytes() == (killed / name).read_bytes(), name
     with xr.open_dataset(whole / "result.nc", engine="h5netcdf") as dataset:
-        assert dataset.sizes["time"] == 10
+        assert dataset.sizes["time"] == 7
         assert dataset["tribofilm_1"].values[-1] > dataset["tribofilm_1"].values[5] > 0.0
 
 

@@ -177,6 +177,7 @@ def test_rubbing_stops_between_the_steps_of_a_run(scene: Scene, duty: Duty) -> N
     assert [state.time for state, _ in rubbing(scene, duty, (10.0, 35.0))] == approx([10.0, 35.0], rel=1e-12)
 
 
+@pytest.mark.long
 def test_a_rougher_disc_needs_more_speed() -> None:
     found = []
     for rq, fine in (("60 nm", "8 nm"), ("120 nm", "16 nm")):  # twice as rough at all lengths
@@ -282,6 +283,7 @@ def test_points_that_are_not_converged_are_hollow(swept: xr.Dataset) -> None:
     assert axis.get_legend().get_texts()[-1].get_text() == "not converged"
 
 
+@pytest.mark.usefixtures("rendered")
 def test_the_command_prints_a_table_and_writes_three_files(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
 ) -> None:

@@ -86,6 +86,7 @@ def test_indices_are_those_of_ishigamis_function() -> None:
             assert low - 1e-3 <= truth <= high + 1e-3
 
 
+@pytest.mark.usefixtures("rendered")
 def test_a_sweep_is_one_dataset_and_goes_on_from_what_is_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -73,6 +73,7 @@ def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None
         sys.modules.pop(name, None)
 
 
+@pytest.mark.long
 def test_zddp_running_in() -> None:
     names = followed("zddp_running_in")
     assert names["wear_without"] > 2.0 * names["wear_with"]

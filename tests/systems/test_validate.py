@@ -16,7 +16,14 @@ from system_models.validation.registry import COMPARISONS, outcome
 MINUTES = {"optical_films", "dimple"}  # of solving: tests/reference/test_measured_films.py has them on a coarse grid
 
 
-@pytest.mark.parametrize("name", sorted(set(COMPARISONS) - MINUTES))
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.long if name == "starvation" else ())
+        for name in COMPARISONS
+        if name not in MINUTES
+    ],
+)
 def test_nothing_disagrees_without_a_known_cause(name):
     found = outcome(name)
     assert not found.failure
@@ -89,6 +96,7 @@ def test_printed_numbers_are_right_to_half_of_their_last_digit():
     assert rounding((0.09, 0.01, 0.67), (22.0, 1.0, 0.53)) == approx(np.hypot(0.67 * 0.005 / 0.09, 0.53 * 0.5 / 22.0))
 
 
+@pytest.mark.usefixtures("rendered")
 def test_a_comparison_writes_a_page_of_one_file_and_its_picture(tmp_path, capsys):
     assert main(["validate", "dry_contact", "tribofilm", "--out", str(tmp_path)]) == 0
     said = capsys.readouterr().out
