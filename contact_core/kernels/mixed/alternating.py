@@ -178,8 +178,9 @@ class _Held(Iteration):
         lifted = within & (self.h <= q.floor) & (self.f >= p) & (gain > 0.0)  # the gain is zero on the edge
         self.held = (self.held & ~released) | (lifted & (self.waits == 0))
         self.solid[self.held] = False
-        self.stiff |= self.held
-        self.dh[self.held] = _REST * q.floor - self.h[self.held]
+        risen = self.held | lifted
+        self.stiff |= risen
+        self.dh[risen] = _REST * q.floor - self.h[risen]
         if q.wrapped:
             wrap(self.solid)
         rows, columns = np.nonzero(self.stiff)
