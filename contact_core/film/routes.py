@@ -16,9 +16,9 @@ from ..errors import ConvergenceError, FilmTooWideError
 from ..kernels.dry import dry_solution
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed.advection import advected
-from ..kernels.mixed.alternating import solve_alternating
 from ..kernels.mixed.asperities import REACH
 from ..kernels.mixed.fixed_point import solve_mixed
+from ..kernels.mixed.held import solve_held
 from ..kernels.mixed.marched import solve_marched
 from ..kernels.mixed.newton import solve_newton
 from ..kernels.mixed.problem import Iterate, Solution
@@ -38,7 +38,7 @@ _FULL_FILM = 3.0  # formula film over rms roughness, above which a dry contact i
 _MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
 _NESTED_FROM = 65  # nodes along an axis, from which on a film starts on the grid of half of them
 _HYBRID_ITERATIONS, _MARCHED_ITERATIONS = 150, 2000  # of one try at a steady film
-_ALTERNATING_ITERATIONS = 400  # of one round
+_HELD_ITERATIONS = 400  # of one round
 _CYCLES = {True: 25, False: 15}  # of multigrid, by `Problem.fitted`
 _NEWTON_STEPS = 30
 _WORN_TOLERANCE, _WORN_ITERATIONS = 1e-4, 1000  # of the pressure that wears a body at rest
@@ -241,7 +241,7 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     if by_march and any(method == "hybrid" for method, _ in algorithms):  # where solids carry much
         algorithms = (*algorithms, ("marched", "last"))
     if settings.patient and not step:
-        algorithms = (*algorithms, ("alternating", "last"))
+        algorithms = (*algorithms, ("held", "last"))
     tries = (*_first_tries(scaled, step), *algorithms) if step else algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, (True, True, math.inf)
     apart = _stays_apart(scaled, start, step)
@@ -328,7 +328,7 @@ class _Solver:
                     break
             return None if layered and found.gap.min() < reach else found
         start = self._start(begin)
-        if method == "alternating":
+        if method == "held":
             if self.problem.by_flux or self.problem.depth > 0.0:
                 return None
             start = scaled.dry_start() if start is None else start
@@ -338,7 +338,7 @@ class _Solver:
             "hybrid": (solve_mixed, _HYBRID_ITERATIONS if steady else settings.iterations),
             "marched": (solve_marched, _MARCHED_ITERATIONS),
             "newton": (solve_newton, _NEWTON_STEPS),
-            "alternating": (solve_alternating, _ALTERNATING_ITERATIONS),
+            "held": (solve_held, _HELD_ITERATIONS),
         }[method]
         limits = settings.tolerance, min(most, settings.iterations)
         return scaled.without_images(solve(scaled.surfaces, self.problem, scaled.with_images(start), *limits))
