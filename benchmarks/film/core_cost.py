@@ -19,8 +19,8 @@ from contact_core.film.outputs import at_centre
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
 from contact_core.kernels.mixed.advection import advected
-from contact_core.kernels.mixed.direct import solve_direct
 from contact_core.kernels.mixed.fixed_point import solve_mixed
+from contact_core.kernels.mixed.held import solve_held
 from contact_core.kernels.mixed.problem import Iterate, Problem, Solution
 from contact_core.kernels.multigrid.cycle import extrapolated, solve_smooth
 from contact_core.laws.profile import Logarithmic, Rounded
@@ -253,13 +253,13 @@ def steps(report: Page, scene: Scene, correlation: str, unit: float) -> dict[str
                 errors[name].append([off(found.iterate.pressure, pressure) for (_, found), _ in runs])
         if n == LEAD + 1:
             scaled, problem = posed(scene, now, step, state)
-            other = solve_direct(scaled.half_space, problem, scaled.dry_start(), 1e-5, 100)
+            other = solve_held(scaled.half_space, problem, scaled.dry_start(), 1e-5, 100)
             independent = off(pressure, other.iterate.pressure)
         state = scaled.solution(reference, "mixed", "").state
     unit = min(unit, unit_of(scene.film.points))
     report.say(
         f"One step, correlation {correlation}: W_c {np.mean(shares):.3f}. One work unit was {1e3 * unit:.3f} ms. The reference "
-        f"deviates by {100 * independent:.3f} % from the solution of `contact_core/kernels/mixed/direct.py` started from the dry contact."
+        f"deviates by {100 * independent:.3f} % from the solution of `contact_core/kernels/mixed/held.py` started from the dry contact."
     )
     report.header("start", "iterations", "ms", "WU", "WU / iteration", "error [%]", "largest [%]")
     found = {}

@@ -13,7 +13,6 @@ from contact_core.film.outputs import film_outputs
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
 from contact_core.kernels.half_space import HalfSpace
-from contact_core.kernels.mixed.direct import solve_direct
 from contact_core.kernels.mixed.fixed_point import solve_mixed
 from contact_core.kernels.mixed.problem import Iterate, Problem, Solution
 from contact_core.scene import Case
@@ -45,7 +44,7 @@ def marched(half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: 
 
 
 # iterations, or steps, at most
-METHODS = {"hybrid": (solve_mixed, 1000), "direct": (solve_direct, 100), "marched": (marched, 120)}
+METHODS = {"hybrid": (solve_mixed, 1000), "marched": (marched, 120)}
 
 
 def solved(scaled: Scaled, method: str, start: Iterate) -> FilmSolution:

@@ -16,10 +16,9 @@ from ..errors import ConvergenceError, FilmTooWideError
 from ..kernels.dry import dry_solution
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed.advection import advected
-from ..kernels.mixed.alternating import solve_alternating
 from ..kernels.mixed.asperities import REACH
-from ..kernels.mixed.direct import solve_direct
 from ..kernels.mixed.fixed_point import solve_mixed
+from ..kernels.mixed.held import solve_held
 from ..kernels.mixed.marched import solve_marched
 from ..kernels.mixed.newton import solve_newton
 from ..kernels.mixed.problem import Iterate, Solution
@@ -40,8 +39,8 @@ _LASTING = 4 * (("hybrid", "last"),)  # lines couple contacts over long distance
 _FULL_FILM = 3.0  # formula film over rms roughness, above which a dry contact is no substitute
 _MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
 _NESTED_FROM = 65  # nodes along an axis, from which on a film starts on the grid of half of them
-_HYBRID_ITERATIONS, _DIRECT_ITERATIONS, _MARCHED_ITERATIONS = 150, 80, 2000  # of one try at a steady film
-_ALTERNATING_ITERATIONS = 400  # of one round
+_HYBRID_ITERATIONS, _MARCHED_ITERATIONS = 150, 2000  # of one try at a steady film
+_HELD_ITERATIONS = 400  # of one round
 _CYCLES = {True: 25, False: 15}  # of multigrid, by `Problem.fitted`
 _NEWTON_STEPS = 30
 _WORN_TOLERANCE, _WORN_ITERATIONS = 1e-4, 1000  # of the pressure that wears a body at rest
@@ -84,7 +83,7 @@ class Regime:
 
 
 REGIMES = (
-    Regime("dry", (("hybrid", "dry"), ("direct", "last")), floors=(0.0, 0.5)),
+    Regime("dry", (("hybrid", "dry"),), floors=(0.0, 0.5)),
     Regime(
         "line",
         (
@@ -93,47 +92,39 @@ REGIMES = (
             ("newton", "dry"),
             ("newton", "last"),
             ("hybrid", "shared"),
-            ("direct", "film"),
         ),
         rows=(1, 1),
     ),
     Regime(
         "clear line",
-        (("hybrid", "smooth"), ("newton", "film"), ("hybrid", "shared"), ("hybrid", "last"), ("direct", "film")),
+        (("hybrid", "smooth"), ("newton", "film"), ("hybrid", "shared"), ("hybrid", "last")),
         clearance=(1.5, math.inf),
         rows=_SEVERAL,
     ),
     Regime(
         "light line",
-        (("newton", "film"), ("hybrid", "dry"), ("direct", "film"), ("direct", "shared")),
+        (("newton", "film"), ("hybrid", "dry")),
         clearance=(0.03, math.inf),
         load=(0.0, 50.0),
         rows=_SEVERAL,
     ),
     Regime(
         "rough line",
-        (("hybrid", "dry"), ("hybrid", "shared"), *_LASTING, ("direct", "film")),
+        (("hybrid", "dry"), ("hybrid", "shared"), *_LASTING),
         clearance=(0.03, 0.2),
         load=(0.0, 2000.0),
         rows=_SEVERAL,
     ),
     Regime(
         "moderate line",
-        (
-            ("hybrid", "shared"),
-            ("newton", "film"),
-            ("hybrid", "smooth"),
-            ("newton", "last"),
-            *_LASTING,
-            ("direct", "film"),
-        ),
+        (("hybrid", "shared"), ("newton", "film"), ("hybrid", "smooth"), ("newton", "last"), *_LASTING),
         clearance=(0.03, math.inf),
         load=(0.0, 600.0),
         rows=_SEVERAL,
     ),
     Regime(
         "mixed line",
-        (("hybrid", "shared"), ("hybrid", "smooth"), *_LASTING, ("direct", "film")),
+        (("hybrid", "shared"), ("hybrid", "smooth"), *_LASTING),
         clearance=(0.03, math.inf),
         rows=_SEVERAL,
     ),
@@ -151,40 +142,21 @@ REGIMES = (
     ),
     Regime(
         "smooth",
-        (
-            ("multigrid", "none"),
-            ("hybrid", "film"),
-            ("multigrid", "none, damped"),
-            ("direct", "film"),
-            ("direct", "dry"),
-        ),
+        (("multigrid", "none"), ("hybrid", "film"), ("multigrid", "none, damped"), ("newton", "film")),
         clearance=(1e3, math.inf),
-        by_flux=(
-            ("hybrid", "flooded"),
-            ("direct", "flooded"),
-            ("hybrid", "nested"),
-            ("hybrid", "last"),
-            ("direct", "last"),
-            ("direct", "film"),
-            ("direct", "dry"),
-        ),
+        by_flux=(("hybrid", "flooded"), ("hybrid", "nested"), ("hybrid", "last"), ("newton", "film")),
     ),
     Regime(
         "light",
-        (("newton", "film"), ("newton", "dry"), ("direct", "film"), ("direct", "dry")),
+        (("newton", "film"), ("newton", "dry")),
         load=(0.0, 50.0),
-        by_flux=(("hybrid", "flooded"), ("direct", "flooded"), ("direct", "film"), ("direct", "dry")),
+        by_flux=(("hybrid", "flooded"), ("newton", "film"), ("newton", "dry")),
     ),
-    Regime("boundary", (("hybrid", "dry"), ("direct", "last"), ("direct", "shared")), clearance=(0.0, 0.03)),
-    Regime(
-        "thick film",
-        (("hybrid", "nested"), ("newton", "film"), ("direct", "film")),
-        clearance=(1.5, math.inf),
-        load=(0.0, 300.0),
-    ),
-    Regime("film", (("hybrid", "nested"), ("direct", "last"), ("direct", "film")), clearance=(1.5, math.inf)),
-    Regime("moderate", (("hybrid", "shared"), ("newton", "film"), ("direct", "dry")), load=(0.0, 300.0)),
-    Regime("mixed", (("hybrid", "shared"), ("hybrid", "nested"), ("direct", "last"), ("direct", "dry"))),
+    Regime("boundary", (("hybrid", "dry"),), clearance=(0.0, 0.03)),
+    Regime("thick film", (("hybrid", "nested"), ("newton", "film")), clearance=(1.5, math.inf), load=(0.0, 300.0)),
+    Regime("film", (("hybrid", "nested"),), clearance=(1.5, math.inf)),
+    Regime("moderate", (("hybrid", "shared"), ("newton", "film")), load=(0.0, 300.0)),
+    Regime("mixed", (("hybrid", "shared"), ("hybrid", "nested"))),
 )
 
 
@@ -267,10 +239,11 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     regime = next(row for row in REGIMES if row.holds(scaled))
     by_flux = scaled.now.conserving or scaled.now.meniscus is not None
     algorithms = regime.by_flux if by_flux and regime.by_flux else regime.algorithms
-    if (settings.fitted or scaled.fade > 0.0) and not step:
-        algorithms = _with_march(algorithms)
+    by_march = (settings.fitted or scaled.fade > 0.0) and not step
+    if by_march and any(method == "hybrid" for method, _ in algorithms):  # where solids carry much
+        algorithms = (*algorithms, ("marched", "last"))
     if settings.patient and not step:
-        algorithms = (*algorithms, ("alternating", "last"))
+        algorithms = (*algorithms, ("held", "last"))
     tries = (*_first_tries(scaled, step), *algorithms) if step else algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, (True, True, math.inf)
     apart = _stays_apart(scaled, start, step)
@@ -304,18 +277,6 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     return replace(dry(scaled, "fallback"), converged=False, shortfall=why, iterations=spent)
 
 
-def _with_march(algorithms: tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
-    """Return the algorithms of a steady film with a march after the hybrid, before any factorisation: that costs more.
-
-    Films of fitted flow and films under asperities need it where solids carry much.
-    """
-    methods = [method for method, _ in algorithms]
-    if "hybrid" not in methods:
-        return algorithms
-    at = methods.index("direct") if "direct" in methods else len(methods)
-    return (*algorithms[:at], ("marched", "last"), *algorithms[at:])
-
-
 def _stays_apart(scaled: Scaled, start: FilmState | None, step: Step | None) -> bool:
     """Return True if bodies that an oil film separates stay apart in the next instant.
 
@@ -328,12 +289,12 @@ def _stays_apart(scaled: Scaled, start: FilmState | None, step: Step | None) -> 
 
 def _first_tries(scaled: Scaled, step: Step) -> tuple[tuple[str, str], ...]:
     """Return the algorithms that a time step tries before its row of the table."""
-    hybrid, direct, newton = (("hybrid", "before"),), (("direct", "before"),), (("newton", "before"),)
+    hybrid, newton = (("hybrid", "before"),), (("newton", "before"),)
     inlet = inlet_length(scaled.a, scaled.now.shape, scaled.film) / scaled.grid.spacing
     clear_line = scaled.grid.periodic and scaled.film > _CLEAR_LINE * scaled.roughness and inlet > _RESOLVED_INLET
     if not step.thorough and not clear_line:
         return hybrid
-    return (*newton, *hybrid, *direct) if scaled.is_light or clear_line else (*hybrid, *direct, *newton)
+    return (*newton, *hybrid) if scaled.is_light or clear_line else (*hybrid, *newton)
 
 
 def _accepted_excess(scaled: Scaled, step: Step) -> float:
@@ -369,7 +330,7 @@ class _Solver:
                     break
             return None if layered and found.gap.min() < reach else found
         start = self._start(begin)
-        if method == "alternating":
+        if method == "held":
             if self.problem.by_flux or self.problem.depth > 0.0:
                 return None
             start = dry_start(scaled) if start is None else start
@@ -377,10 +338,9 @@ class _Solver:
             return None
         solve, most = {
             "hybrid": (solve_mixed, _HYBRID_ITERATIONS if steady else settings.iterations),
-            "direct": (solve_direct, _DIRECT_ITERATIONS),
             "marched": (solve_marched, _MARCHED_ITERATIONS),
             "newton": (solve_newton, _NEWTON_STEPS),
-            "alternating": (solve_alternating, _ALTERNATING_ITERATIONS),
+            "held": (solve_held, _HELD_ITERATIONS),
         }[method]
         limits = settings.tolerance, min(most, settings.iterations)
         return scaled.without_images(solve(scaled.surfaces, self.problem, scaled.with_images(start), *limits))

@@ -18,7 +18,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from contact_core.kernels.half_space import HalfSpace
-from contact_core.kernels.mixed.direct import solve_direct
+from contact_core.kernels.mixed.newton import solve_newton
 from contact_core.kernels.mixed.problem import Iterate, Problem
 
 
@@ -146,7 +146,7 @@ def solved(bearing, n, shift=0.3):
     )
     start = np.tile(6.0 * bearing.load * x * (1.0 - x), (3, 1))
     begin = Iterate(start, start.copy(), np.zeros(shape, np.bool_), shift)
-    found = solve_direct(HalfSpace(*shape, 1e-14, "scipy"), problem, begin, 1e-12, 400)
+    found = solve_newton(HalfSpace(*shape, 1e-14, "scipy"), problem, begin, 1e-12, 400)
     assert found.converged, found.shortfall
     return x, found.iterate.pressure[1], found.mass[1], found.gap[1], found.iterate.rigid
 

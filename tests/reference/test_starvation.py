@@ -12,7 +12,7 @@ from contact_core.film.instant import Instant, Settings, Step
 from contact_core.film.outputs import at_centre
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
-from contact_core.kernels.mixed.direct import solve_direct
+from contact_core.kernels.mixed.newton import solve_newton
 from contact_core.laws.density import DowsonHigginson
 from contact_core.laws.viscosity import Roelands
 from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
@@ -89,7 +89,7 @@ def test_all_of_the_oil_that_enters_leaves(share):
     now = replace(now, supply=share * film)
     scaled, tight = Scaled(now, grid, SETTINGS), 1e-12
     start = scaled.iterate(solve_film(now, grid, SETTINGS).state)
-    found = solve_direct(scaled.half_space, scaled.problem(), start, tight, 200)
+    found = solve_newton(scaled.half_space, scaled.problem(), start, tight, 200)
     assert found.pressure_change < tight * 10
     assert not found.iterate.pressure[[1, -2]].any()  # nothing leaves sideways
     assert not found.iterate.pressure[:, -3:].any()

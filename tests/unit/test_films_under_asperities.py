@@ -16,7 +16,6 @@ from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
 from contact_core.film.starts import shared_start
 from contact_core.kernels.half_space import PeriodicHalfSpace
-from contact_core.kernels.mixed.direct import solve_direct
 from contact_core.kernels.mixed.fixed_point import solve_mixed
 from contact_core.kernels.mixed.marched import solve_marched
 from contact_core.kernels.mixed.newton import solve_newton
@@ -24,7 +23,7 @@ from contact_core.kernels.mixed.problem import Iterate
 from contact_core.laws.asperity_layer import AsperityLayer
 from contact_core.reference import ParabolicSlider
 
-METHODS = {"hybrid": (solve_mixed, 600), "direct": (solve_direct, 200), "newton": (solve_newton, 60)}
+METHODS = {"hybrid": (solve_mixed, 600), "newton": (solve_newton, 60)}
 
 
 def start(case, smooth, lift=0.15):
@@ -57,7 +56,7 @@ def test_every_algorithm_finds_the_same_film_over_waves():
         assert other == approx(found[0], rel=0.01)
 
 
-@pytest.mark.parametrize("method", ["direct", "newton"])
+@pytest.mark.parametrize("method", ["hybrid", "newton"])
 def test_oil_and_asperities_share_the_pressure_by_the_law_at_every_node(method):
     case, smooth, half_space = wavy(3e3 if method == "newton" else 300.0)
     solve, most = METHODS[method]
@@ -70,14 +69,13 @@ def test_oil_and_asperities_share_the_pressure_by_the_law_at_every_node(method):
     assert (it.fluid >= 0.0).all()
 
 
-def test_cavities_hold_their_oil_under_asperities():
-    """The hybrid finds this film, too, but the edge of its cavity does not settle."""
-    case, smooth, half_space = wavy(wave=0.0, conserving=True)
-    begin = start(case, smooth)
-    direct, newton = (METHODS[name][0](half_space, case, begin, 2e-3, 200) for name in ("direct", "newton"))
-    assert outputs(direct) == approx(outputs(newton), rel=0.02)
-    hybrid = solve_mixed(half_space, case, begin, 2e-3, 300)
-    assert hybrid.gap.min() == approx(newton.gap.min(), rel=0.02)
+@pytest.mark.parametrize(("mobility", "stress", "depth"), [(300.0, 2.0, 0.005), (3e3, 2.0, 0.005), (300.0, 1.0, 0.02)])
+def test_cavities_hold_their_oil_under_asperities(mobility, stress, depth):
+    """At the edge of a cavity asperities still touch: the sign of p - s(h) there must not keep the hybrid from settling."""
+    case, smooth, half_space = wavy(mobility, wave=0.0, conserving=True)
+    case = replace(case, stress=stress, depth=depth)
+    hybrid, newton = (METHODS[name][0](half_space, case, start(case, smooth), 2e-3, 150) for name in METHODS)
+    assert outputs(hybrid) == approx(outputs(newton), rel=0.02)
 
 
 def test_an_inlet_meniscus_leaves_more_to_asperities_and_the_law_holds_at_every_node():
@@ -105,7 +103,6 @@ def test_every_algorithm_finds_the_same_film_of_a_line_steady_and_in_a_time_step
         each = {name: outputs(one, np.s_[1:-1]) for name, one in found.items()}
         assert 0.03 < each["newton"][0] < 0.5
         assert each["hybrid"] == approx(each["newton"], rel=0.01)
-        assert each["direct"] == approx(each["newton"], rel=0.01)
         before = found["newton"]
         begin = before.iterate
 

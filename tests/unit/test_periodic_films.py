@@ -7,7 +7,6 @@ import pytest
 from comparison import approx
 from line_contact import line, roughness, with_images
 
-from contact_core.kernels.mixed.direct import solve_direct
 from contact_core.kernels.mixed.fixed_point import solve_mixed
 from contact_core.kernels.mixed.newton import solve_newton
 from contact_core.kernels.mixed.problem import Iterate
@@ -20,7 +19,6 @@ def solve(method, case, start=None, tolerance=1e-6, **changes):
     solver, most = {
         "newton": (solve_newton, 60),
         "hybrid": (solve_mixed, 600),
-        "direct": (solve_direct, 200),
     }[method]
     return solver(case.half_space, replace(case.problem, **changes), start or case.start, tolerance, most)
 
@@ -60,12 +58,8 @@ CASES = [  # method, load, oil, rms roughness over the film of the formula
     ("newton", 5.0, 5.0, 1.5),
     ("hybrid", 200.0, 10.0, 0.3),
     ("hybrid", 200.0, 10.0, 4.0),
-    ("direct", 200.0, 10.0, 0.3),
 ]
-DEEPER = [  # solids at the floor's edge: a node more or less in eight rows, and the direct method misses its tolerance
-    ("hybrid", 200.0, 10.0, 2.0),
-    ("direct", 200.0, 10.0, 2.0),
-]
+DEEPER = ("hybrid", 200.0, 10.0, 2.0)  # solids at the floor's edge
 
 
 @pytest.mark.parametrize(("method", "load", "oil", "rms"), CASES)
@@ -83,7 +77,7 @@ def test_a_moved_roughness_moves_the_film_and_two_periods_are_as_good_as_one(met
         assert abs(found.load_error) < 1e-4
 
 
-@pytest.mark.parametrize(("method", "load"), [("newton", 5.0), ("hybrid", 100.0), ("direct", 100.0)])
+@pytest.mark.parametrize(("method", "load"), [("newton", 5.0), ("hybrid", 100.0)])
 def test_equal_rows_are_as_good_as_one_row(method, load):
     wave = 0.2 * np.cos(7.0 * np.linspace(-2.5, 1.5, NX))
     found = [solve(method, line(load, 8.0, NX, np.tile(wave, (rows, 1)))) for rows in (1, 2, 3, 4)]
@@ -93,7 +87,7 @@ def test_equal_rows_are_as_good_as_one_row(method, load):
         assert more.iterate.rigid == approx(found[0].iterate.rigid, abs=1e-5)
 
 
-@pytest.mark.parametrize(("method", "load", "oil", "rms"), [*CASES, *DEEPER])
+@pytest.mark.parametrize(("method", "load", "oil", "rms"), [*CASES, DEEPER])
 @pytest.mark.parametrize("rows", [2, 5])
 def test_films_satisfy_the_equations(method, load, oil, rms, rows):
     case = line(load, oil, NX, rms * roughness(rows, NX), floor=0.05)
@@ -114,11 +108,10 @@ def test_films_satisfy_the_equations(method, load, oil, rms, rows):
     assert (p * np.abs(found.gap[1:-1] - q.floor))[solid].sum() < 1e-3 * q.floor * p.sum()
 
 
-@pytest.mark.parametrize("method", ["hybrid", "direct"])
-def test_cavities_that_hold_their_oil_move_with_the_roughness(method):
+def test_cavities_that_hold_their_oil_move_with_the_roughness():
     z = 0.3 * roughness(8, NX)
     rough = (z, np.roll(z, 3, axis=0), np.tile(z, (2, 1)))
-    one, moved, twice = (solve(method, line(60.0, 8.0, NX, part), tolerance=1e-5, conserving=True) for part in rough)
+    one, moved, twice = (solve("hybrid", line(60.0, 8.0, NX, part), tolerance=1e-5, conserving=True) for part in rough)
     cavity, mass = inner(one) <= 0.0, one.mass[1:-1]
     assert (mass[cavity] < 0.9 * one.gap[1:-1][cavity]).any()  # not full
     assert apart(np.roll(inner(one), 3, axis=0), inner(moved)) < 3e-5
@@ -126,13 +119,10 @@ def test_cavities_that_hold_their_oil_move_with_the_roughness(method):
     assert apart(np.tile(mass, (2, 1)), twice.mass[1:-1]) < 3e-5
 
 
-@pytest.mark.parametrize(
-    ("load", "methods"),  # from a Hertz-like film Newton's method goes astray under more load than this
-    [(20.0, ("newton", "hybrid", "direct")), (40.0, ("hybrid", "direct"))],
-)
-def test_all_methods_agree_on_a_rough_film(load, methods):
-    case = line(load, 5.0, NX, 0.3 * roughness(4, NX))
-    found = [solve(method, case) for method in methods]
+def test_all_methods_agree_on_a_rough_film():
+    """From a Hertz-like film Newton's method goes astray under more load than this."""
+    case = line(20.0, 5.0, NX, 0.3 * roughness(4, NX))
+    found = [solve(method, case) for method in ("newton", "hybrid")]
     for one in found:
         assert one.converged
         assert apart(inner(found[0]), inner(one)) < 1e-5
@@ -151,8 +141,8 @@ def test_a_dry_start_touches_where_the_dry_contact_does():
 
 def test_time_steps_tend_to_the_steady_film():
     case = line(100.0, 8.0, NX, 0.2 * roughness(6, NX))
-    steady = solve("direct", case)
-    now = solve("direct", case, mobility=case.problem.mobility / 1.5)
+    steady = solve("hybrid", case)
+    now = solve("hybrid", case, mobility=case.problem.mobility / 1.5)
     before = apart(inner(steady), inner(now))
     for _ in range(12):
         it = Iterate(now.iterate.pressure, now.iterate.fluid, now.iterate.solid, now.iterate.rigid)

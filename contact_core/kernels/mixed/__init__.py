@@ -4,8 +4,7 @@
     stopping_rule   when a solution counts as converged
     fixed_point     the iteration for rough contacts
     marched         steady film at the end of a march in time by that iteration
-    direct          the same with the fluid, the rigid gap and the load solved at once
-    alternating     fixed_point and direct in turn, where neither settles near the floor
+    held            that iteration in small steps, for films near the floor that do not settle otherwise
     newton          Newton's method with the whole half space, for light loads and smooth lines
     reynolds        Reynolds' equation: gap and mass, residual, fluid pressure under contacts, imbalance
     corrections     corrections of `fixed_point`: of the gap in the stiff zone, of the pressure by lines elsewhere
@@ -19,5 +18,5 @@
     advection       prediction after the surfaces have moved
 
 Imports run one way: problem, asperities, edge <- flow <- stopping_rule, reynolds, cavities <- corrections <-
-fixed_point <- direct, marched <- alternating; newton stands beside fixed_point.
+fixed_point <- held, marched; newton stands beside fixed_point.
 """

@@ -33,6 +33,9 @@ _LINE_SWEEPS = 1
 _STIFF_STEP = 0.4  # part of their correction that nodes in the stiff zone take
 _RENEW = 0.02  # share of the stiff zone that changes before the lever of the load is computed anew
 _LEAST_PART = 0.1  # of the load, that the balance of a film that conserves its mass counts with
+# where cavities hold oil, a node at which asperities carry p to within this part is none that is full: p - s(h) is a small
+# difference there, and its sign would decide between a cavity and a full node anew in every iteration
+_TRACE = 0.02
 _SHARE_TOLERANCE = 0.02  # nodes at the floor with a fluid pressure of about p change sides for ever, p unchanged
 
 
@@ -131,8 +134,6 @@ def _bounded(p, image, cap, edge, weight, wrapped):  # type: ignore[no-untyped-d
 class Iteration:
     """One fixed-point iteration and its scratch arrays."""
 
-    splits = True  # nodes that asperities rule into fluid and solid pressure
-
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate, depth: int, stiff_step: float) -> None:
         self.half_space, self.problem, self.start, self.stiff_step = half_space, problem, start, stiff_step
         shape = start.pressure.shape
@@ -145,7 +146,7 @@ class Iteration:
         self.flow = Flow.of(problem)
         self.stiff, self.stiff_of_unit = (np.zeros(shape, np.bool_) for _ in range(2))
         self.over_oil, self.lack = np.zeros(shape), np.zeros(shape)
-        self.ruled = self.solid.copy() if self.splits and problem.depth > 0.0 else None
+        self.ruled = self.solid.copy() if problem.depth > 0.0 else None
         self.sums = np.zeros(7)
         self.carried = Carried(problem) if problem.by_flux else None
         near = half_space.near
@@ -203,7 +204,8 @@ class Iteration:
             full, flux, first, filling = carried.full, carried.flux, carried.first, carried.filling
             cavities.close_inlet(p, f, solid, q.first)
         bodies = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
-        reynolds.film_pass(p, f, solid, *bodies, *oil, self.h, full, *flow.nodes, q.lumped, self.ruled)
+        trace = _TRACE if q.conserving else 0.0
+        reynolds.film_pass(p, f, solid, *bodies, *oil, self.h, full, *flow.nodes, q.lumped, self.ruled, trace)
         flow.measure()
         self._carry(full)
         balance = (self.h, self.mass, q.mass_old, *flow.faces, flux)
@@ -302,12 +304,7 @@ def solve_mixed(half_space: HalfSpace, problem: Problem, start: Iterate, toleran
     Without convergence the result is the one of least pressure change in the last quarter. It is finite, or its
     `pressure_change` is infinite.
     """
-    return iterate_on(Iteration(half_space, problem, start, _DEPTH, _STIFF_STEP), tolerance, iterations)
-
-
-def iterate_on(it: Iteration, tolerance: float, iterations: int) -> Solution:
-    """Iterate until the stopping rule holds or `iterations` are used up."""
-    problem = it.problem
+    it = Iteration(half_space, problem, start, _DEPTH, _STIFF_STEP)
     best: Solution | None = None
     n = 0
     for n in range(1, iterations + 1):

@@ -196,7 +196,7 @@ class _Film:
             full, flux, first = carried.full, carried.flux, carried.first
             cavities.close_inlet(p, f, solid, q.first)
         bodies = (q.undeformed, deformation, self.rigid)
-        reynolds.film_pass(p, f, solid, *bodies, *oil, self.h, full, *flow.nodes, False, None)
+        reynolds.film_pass(p, f, solid, *bodies, *oil, self.h, full, *flow.nodes, False, None, 0.0)
         solid &= self.inner & (room > 0.0) if q.depth > 0.0 else self.inner  # the edge does not touch
         if q.wrapped:
             wrap(solid)

@@ -48,12 +48,13 @@ def film_pass(  # type: ignore[no-untyped-def]
     driven,
     lumped,
     ruled,
+    trace,
 ):
     """Compute gap, new solid contacts, full mass and the nodes' properties of `flow` from the pressure.
 
     `deformation` may have more columns than there are nodes. lumped: f = p on solid contacts, too; where that is zero
     they are released. ruled: nodes that count as solid contacts although asperities share the load with oil there, see
-    `asperities.share_out`; None: there are none.
+    `asperities.share_out`; None: there are none. trace: part of what asperities carry, below which oil counts as none.
     """
     ny, nx = p.shape
     touch = _TOUCH * floor
@@ -72,6 +73,8 @@ def film_pass(  # type: ignore[no-untyped-def]
                 f[j, i] = p[j, i]
             elif not (solid[j, i] and touches):
                 f[j, i] = max(p[j, i] - own, 0.0)
+                if f[j, i] < trace * own:
+                    f[j, i] = 0.0
             solid[j, i] = touches
             open_gap = floor if touches and depth <= 0.0 else max(here, floor)
             gap[j, i] = open_gap

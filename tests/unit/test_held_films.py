@@ -1,4 +1,4 @@
-"""Steady films near the floor that no other algorithm finds: rounds of lines and direct (`kernels.mixed.alternating`).
+"""Steady films near the floor that no other algorithm finds: rounds of lines and direct (`kernels.mixed.held`).
 
 Points of `benchmarks.film.hard_cases`, by their numbers, on 65 nodes.
 """
@@ -34,7 +34,7 @@ def test_a_film_near_the_floor_converges_and_passes_an_independent_check(point):
     given = point.arguments(NODES)
     found = point_contact(**given, tolerance=TOLERANCE, floor=FLOOR)
     assert found.converged, found.shortfall
-    assert "alternating" in found.algorithm
+    assert "held" in found.algorithm
     judged = judge(answer(given, found))
     for name in LIMITS:
         assert abs(getattr(judged, name)) < limit(name, judged.beyond), name
@@ -44,7 +44,7 @@ def test_a_film_near_the_floor_converges_and_passes_an_independent_check(point):
 def test_a_rough_line_near_the_floor_converges():
     found = line_contact(**LINE.line_arguments(NODES), tolerance=TOLERANCE, floor=FLOOR)
     assert found.converged, found.shortfall
-    assert "alternating" in found.algorithm
+    assert "held" in found.algorithm
 
 
 @pytest.mark.usefixtures("first_algorithms")
@@ -55,7 +55,7 @@ def test_only_the_film_that_was_asked_for_is_sought_so_long(monkeypatch):
         sought.append(problem.cap.shape)
         return routes.solve_mixed(half_space, problem, start, tolerance, 1)
 
-    monkeypatch.setattr(routes, "solve_alternating", nothing)
+    monkeypatch.setattr(routes, "solve_held", nothing)
     found = point_contact(**NODES_AT_THE_FLOOR.arguments(NODES), tolerance=TOLERANCE, floor=FLOOR)
     assert not found.converged
     assert sought == [(NODES, NODES)]  # and not the coarser grid of the error estimate

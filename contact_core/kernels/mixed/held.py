@@ -1,13 +1,14 @@
-"""Steady film where contacts, the oil under them and pockets between them do not settle: rounds of lines and direct.
+"""Steady film near the floor, where contacts, the oil under them and nodes at the floor do not settle otherwise.
 
-Two things keep the iterations of `fixed_point` and `direct` from settling near the floor, however small their steps.
-Under a contact, flow falls exponentially with the oil's pressure, and its mass balance may have no other term than
-what entrainment carries: Gauss-Seidel on the flow of the iteration before jumps between no pressure and all of it.
-Here each of these nodes takes a Newton step of its own balance. And where a film reaches the floor, the oil is carried
-along as it is (`flow`): such a node gains mass at the floor and loses it above, without an end. Here it is held a
-little above the floor, under oil alone, as long as it loses mass there; by the stopping rule, solids carry the rest.
+Three things keep the iteration of `fixed_point` from settling there, however small its steps. Under a contact, flow
+falls exponentially with the oil's pressure, and its mass balance may have no other term than what entrainment carries:
+Gauss-Seidel on the flow of the iteration before jumps between no pressure and all of it. Here each of these nodes takes
+a Newton step of its own balance. Where a film reaches the floor, the oil is carried along as it is (`flow`): such a
+node gains mass at the floor and loses it above, without an end. Here it is held a little above the floor, under oil
+alone, as long as it loses mass there; by the stopping rule, solids carry the rest. And below the floor the flow does
+not depend on the gap: a node that has sunk there and gains mass would be pressed up by many floors, to drain and to
+sink again. Here it is led to just above the floor first, where its gap counts.
 
-Lines settle everything but the pressure in enclosed pockets, `direct` settles that and upsets the rest: they alternate.
 A film that is found satisfies the stopping rule with no node held, for changes of the pressure that are not damped.
 """
 
@@ -16,11 +17,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..anderson import Anderson
 from ..compiled import jit
 from ..half_space import HalfSpace
 from . import corrections, reynolds
-from .direct import Direct
 from .edge import wrap
 from .fixed_point import Iteration
 from .flow import properties
@@ -29,7 +28,7 @@ from .stopping_rule import excess
 
 Mask = NDArray[np.bool_]
 
-_ROUNDS, _DIRECT_ITERATIONS = 16, 30
+_ROUNDS = 16
 _DEPTH, _DAMPING, _STIFF_STEP = 2, 0.2, 0.4  # of Anderson's memory; part of a step that is taken; of stiff nodes
 _PASSES, _PART, _LARGEST_STEP = 3, 0.7, 0.1  # of the oil under contacts, in an iteration; its steps, in units of p
 _OPEN, _REST = 1.001, 1.01  # gap in floors through which oil flows at a held node, at least; at which it rests
@@ -116,11 +115,16 @@ def _step_under_contacts(  # type: ignore[no-untyped-def]
 class _Held(Iteration):
     """An iteration in small steps, with oil under contacts in balance and nodes held above the floor."""
 
-    def prepare(self, held: Mask, waits: int) -> None:
-        """Take the nodes that are held; no other one is for `waits` iterations."""
-        self.held, self.waits = held, np.full(held.shape, waits)
-        self.memory = Anderson(self.p.size + 1, _DEPTH)
-        self.stiff_step, self.damping = _STIFF_STEP, _DAMPING
+    def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
+        super().__init__(half_space, problem, start, _DEPTH, _STIFF_STEP)
+        self.damping = _DAMPING
+        self.held: Mask = np.zeros(self.p.shape, np.bool_)
+        self.waits = np.full(self.p.shape, _UNTIL_HELD)
+
+    def correct(self) -> None:
+        super().correct()
+        self.damping = _DAMPING
+        self.change /= _DAMPING
 
     def _film(self) -> None:
         q, flow = self.problem, self.flow
@@ -151,7 +155,7 @@ class _Held(Iteration):
         bodies = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
         self.solid[self.held] = False
         film = (self.h, self.mass, *flow.nodes)
-        reynolds.film_pass(p, self.f, self.solid, *bodies, *q.layer, *q.tables, *film, False, None)
+        reynolds.film_pass(p, self.f, self.solid, *bodies, *q.layer, *q.tables, *film, False, None, 0.0)
         flow.measure()
 
     def _correct_gap(self) -> None:
@@ -179,8 +183,9 @@ class _Held(Iteration):
         lifted = within & (self.h <= q.floor) & (self.f >= p) & (gain > 0.0)  # the gain is zero on the edge
         self.held = (self.held & ~released) | (lifted & (self.waits == 0))
         self.solid[self.held] = False
-        self.stiff |= self.held
-        self.dh[self.held] = _REST * q.floor - self.h[self.held]
+        risen = self.held | lifted
+        self.stiff |= risen
+        self.dh[risen] = _REST * q.floor - self.h[risen]
         if q.wrapped:
             wrap(self.solid)
         rows, columns = np.nonzero(self.stiff)
@@ -190,66 +195,27 @@ class _Held(Iteration):
             self.zone = (*ends, rows.size, changed)
 
 
-class _Lines(_Held):
-    """By lines where elasticity does not rule."""
+def solve_held(half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int) -> Solution:
+    """Iterate from `start` until a steady film satisfies the stopping rule or the rounds are used up.
 
-    def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
-        super().__init__(half_space, problem, start, _DEPTH, _STIFF_STEP)
-
-    def correct(self) -> None:
-        super().correct()
-        self.damping = _DAMPING
-        self.change /= _DAMPING
-
-
-class _Pockets(_Held, Direct):
-    """By factorisation there."""
-
-    def correct(self) -> None:
-        super().correct()
-        image = self.memory.image
-        image[:] = self.x + _DAMPING * (image - self.x)
-
-
-def solve_alternating(
-    half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int
-) -> Solution:
-    """Alternate from `start` until a steady film satisfies the stopping rule or the rounds are used up.
-
-    `iterations`: most of one method in one round. Without convergence the result is the end of a round that is nearest
-    to it. Neither asperities below the grid nor `Problem.by_flux`.
+    `iterations`: of one round. Without convergence the result is the end of a round that is nearest to it. Neither
+    asperities below the grid nor `Problem.by_flux`.
     """
     best: Solution | None = None
-    held, waits, spent = np.zeros_like(start.solid), _UNTIL_HELD, 0
-    for _ in range(_ROUNDS):
-        for method, most in ((_Lines, iterations), (_Pockets, min(_DIRECT_ITERATIONS, iterations))):
-            it: _Held = method(half_space, problem, start)
-            it.prepare(held, waits)
-            found = _iterate(it, tolerance, most)
-            if found is None:
-                break
-            spent += found.iterations
-            if best is None or excess(found, tolerance, problem) < excess(best, tolerance, problem):
-                best = found
-            if best.converged:
-                return replace(best, iterations=spent)
-            held, waits, start = it.held, 0, found.iterate
-    if best is None:
-        return failed(start, np.zeros_like(problem.cap), problem.mass_old, spent, "no finite solution")
-    return replace(best, iterations=spent)
-
-
-def _iterate(it: _Held, tolerance: float, iterations: int) -> Solution | None:
-    """Return the first film that satisfies the stopping rule, or the last one; None if there is no finite one."""
-    for n in range(1, iterations + 1):
+    it = _Held(half_space, problem, start)
+    for n in range(1, _ROUNDS * iterations + 1):
         it.correct()
         found = it.assess(n, tolerance)
         if not np.isfinite(found.pressure_change):
-            return None
-        if found.converged or n == iterations:
+            break
+        if found.converged or n % iterations == 0:
             it.evaluate()
             found = it.assess(n, tolerance)
-            if found.converged or n == iterations:
+            if best is None or excess(found, tolerance, problem) < excess(best, tolerance, problem):
+                best = it.kept(found)
+            if found.converged:
                 return it.kept(found)
         it.mix()
-    return None
+    if best is None:
+        return failed(start, np.zeros_like(problem.cap), problem.mass_old, n, "no finite solution")
+    return replace(best, iterations=n)
