@@ -15,6 +15,7 @@ from parsed_page import GEARS
 from pythonfmu.builder import FmuBuilder
 
 from contact_core import Scene
+from fmu_src.native import build as native_build
 from system_models.cli.main import main
 from system_models.run.contact import run
 from system_models.run.duty import Duty
@@ -80,6 +81,13 @@ def gears(built: Built) -> Path:
         assert main([*GEARS, "--out", str(folder)]) == 0
 
     return built.folder(GEARS, make)
+
+
+@pytest.fixture
+def unoptimised(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Compile native FMUs for this platform alone and quickly; by `cc`, as tests share what `gcc` has compiled."""
+    monkeypatch.setattr(native_build, "default_compiler", lambda: "cc")
+    monkeypatch.setattr(native_build, "FLAGS", tuple(flag for flag in native_build.FLAGS if flag != "-O2"))
 
 
 @pytest.fixture

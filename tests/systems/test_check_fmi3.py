@@ -28,6 +28,7 @@ def test_an_fmu_that_minds_its_host_gets_no_note(tmp_path: Path) -> None:
     assert verdicts(deep_findings(built("echo", tmp_path), *ROUGH), Verdict.PASS) == {"run", *ROUGH}
 
 
+@pytest.mark.usefixtures("unoptimised")
 @pytest.mark.parametrize("flavour", ["native", "isolated"])
 def test_our_own_fmu_fails_no_rule(
     scene: Scene, tmp_path: Path, flavour: Flavour, monkeypatch: pytest.MonkeyPatch

@@ -10,22 +10,19 @@ import pytest
 from fmpy.ssp.simulation import simulate_ssp
 
 from contact_core.errors import SceneError
-from fmu_src.native import build as native_build
 from system_models.machines import reading
 from system_models.machines.export import with_timetable
 from system_models.master import export_ssp, simulate
 
-pytestmark = [pytest.mark.systems, pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")]
+pytestmark = [
+    pytest.mark.systems,
+    pytest.mark.usefixtures("unoptimised"),
+    pytest.mark.skipif(shutil.which("cc") is None, reason="needs cc"),
+]
 
 FEW = {"mesh.stations": "4"}
 END, STEP = 4.0, 0.1  # s
 SAME = 1e-7  # of the largest value: rounding, after 40 steps
-
-
-@pytest.fixture(autouse=True)
-def gcc(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Build with gcc: for this platform alone it is as good."""
-    monkeypatch.setattr(native_build, "default_compiler", lambda: "gcc")
 
 
 @pytest.mark.parametrize(("machine", "changes"), [("bearing_218", {}), ("bearing_209", {"duty.axial_load": "500 N"})])
@@ -44,6 +41,17 @@ def test_the_radii_of_a_bearing_under_radial_load_stay_those_of_its_contacts() -
     assert {contact.moved for contact in contacts.values()} == {()}
 
 
+def test_native_contacts_of_gears_have_the_radii_and_tracks_of_their_stations() -> None:
+    """They take no parameters."""
+    for contact in reading.assemble(reading.read("gear_fzg_c", FEW)).contacts.values():
+        own = contact.own_scene
+        assert own.operation.point.radius_x == contact.parameters["radius_x"] != own.geometry.radius_x
+        for i in (1, 2):
+            track = f"track_length_{i}"
+            assert getattr(own.geometry, track) == contact.parameters[f"geometry.{track}"]
+
+
+@pytest.mark.long
 def test_a_native_gear_pair_answers_as_the_python_and_is_exported_without_it(tmp_path: Path) -> None:
     """In the master, and as SSP in fmpy: its contacts, too, have the values of their stations."""
     assembly = reading.assemble(reading.read("gear_fzg_c", FEW))
