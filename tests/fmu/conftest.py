@@ -24,17 +24,6 @@ def python_of_isolated_fmus() -> Iterator[None]:
 
 
 @pytest.fixture(scope="session")
-def built(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Built:
-    return Built(request, tmp_path_factory)
-
-
-@pytest.fixture(scope="session", autouse=True)
-def _native_fmus_share_their_parts(built: Built) -> Iterator[None]:
-    with built.sharing():
-        yield
-
-
-@pytest.fixture(scope="session")
 def scene() -> Scene:
     return Scene.from_toml("mtm_zddp", SMALL)
 
