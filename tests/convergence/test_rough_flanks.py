@@ -1,5 +1,6 @@
 """Blocks of rough flanks whose oil presses at the hardness, against the same solved ten times as closely."""
 
+import pytest
 from comparison import approx
 
 from contact_core import RangeFlag, Scene, advance, initial_state
@@ -14,6 +15,7 @@ SOFT = {  # a flank at load stage 9 with the hardness of its tribofilm
 }
 
 
+@pytest.mark.long
 def test_a_block_of_flanks_under_high_load_is_that_of_a_tenth_of_the_tolerance():
     found = []
     for changes in ({}, {"film.tolerance": "1e-4"}):

@@ -153,7 +153,9 @@ def after_ramp(name, steps, order):
     return np.array([last.outputs[each] for each in ("h_c", "h_central", "friction_force")])
 
 
-@pytest.mark.parametrize(("name", "order"), [("speed", 2), ("radius", 1), ("radius", 2)])
+@pytest.mark.parametrize(
+    ("name", "order"), [pytest.param("speed", 2, marks=pytest.mark.long), ("radius", 1), ("radius", 2)]
+)
 def test_ramps_converge_in_time_with_the_order_asked_for(name, order):
     exact = (4.0 * after_ramp(name, 64, 2) - after_ramp(name, 32, 2)) / 3.0
     errors = [np.abs(after_ramp(name, steps, order) / exact - 1.0).max() for steps in (8, 16, 32)]
@@ -164,7 +166,7 @@ def test_ramps_converge_in_time_with_the_order_asked_for(name, order):
 @pytest.mark.parametrize(
     ("name", "steps", "near"),
     [
-        ("load", 32, 1e-3),
+        pytest.param("load", 32, 1e-3, marks=pytest.mark.long),
         pytest.param("load", 128, 2e-3, marks=pytest.mark.long),
         ("radius", 32, 1e-3),
         pytest.param("radius", 128, 2e-3, marks=pytest.mark.long),

@@ -87,6 +87,7 @@ def test_a_marched_smooth_film_is_the_steady_one():
     assert fields.gap[middle, middle] == approx(steady.gap[middle, middle], rel=0.04)
 
 
+@pytest.mark.long
 def test_without_sliding_rough_bodies_keep_the_oil_that_is_between_their_asperities():
     """Bodies of one speed roll their pattern of oil through the contact: gap and pressure only move along."""
     case = bound({"operation.speed_1": "0.25 m/s", "operation.speed_2": "0.25 m/s"})
