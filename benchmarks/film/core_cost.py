@@ -19,8 +19,8 @@ from contact_core.film.outputs import at_centre
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
 from contact_core.kernels.mixed.advection import advected
-from contact_core.kernels.mixed.held import solve_held
 from contact_core.kernels.mixed.fixed_point import solve_mixed
+from contact_core.kernels.mixed.held import solve_held
 from contact_core.kernels.mixed.problem import Iterate, Problem, Solution
 from contact_core.kernels.multigrid.cycle import extrapolated, solve_smooth
 from contact_core.laws.profile import Logarithmic, Rounded
