@@ -42,7 +42,6 @@ def test_a_steady_film_does_not_depend_on_its_start(wave, bound):
             assert one.converged, one.shortfall
         assert one.pressure_change < 5e-4
         assert one.imbalance < 0.06  # deep waves of equal height turn solid and fluid together for ever
-        assert 0.95 < one.iterate.solid.sum() / found[1].iterate.solid.sum() < 1.05
         assert 500 < one.iterate.solid.sum() < 1100
         assert difference(found[1], one) < bound
 
