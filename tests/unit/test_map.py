@@ -15,7 +15,7 @@ from contact_core.errors import SceneError
 from contact_core.mapped.fitting import Rule, design, left_out, predicted, spread_at, widths_at
 from contact_core.mapped.knot import _knot, contact_of, samples_of
 from contact_core.mapped.map import Map, digest_of, read, shipped_maps
-from contact_core.mapped.query import half_widths_of, here, leverage, told, total
+from contact_core.mapped.query import half_widths_of, here, leverage, told, total, trusted
 from contact_core.scene import Case
 from contact_core.state import changed
 
@@ -153,6 +153,18 @@ def test_derivatives_of_the_friction_are_those_of_the_corrected_one(tmp_path: Pa
     more, less = (at(scene, replace(own, **{name: getattr(own, name) + sign * step})) for sign in (1.0, -1.0))
     seen = (more.friction_force - less.friction_force) / (2.0 * step)
     assert getattr(at(scene, own), f"dfriction_d{name}") == approx(seen, rel=1e-3)
+
+
+@pytest.mark.parametrize(("halves", "trust"), [(-1.0, 1.0), (1.25, 0.75), (-1.5, 0.5), (2.0, 0.0), (9.0, 0.0)])
+def test_within_half_a_range_beyond_the_knots_a_map_fades_out(halves: float, trust: float) -> None:
+    """By each coordinate alike; the worst one rules."""
+    known = chart()
+    for k in range(len(known.centres)):
+        place = [
+            centre + half * (halves if i == k else 0.3)
+            for i, (centre, half) in enumerate(zip(known.centres, known.halves, strict=True))
+        ]
+        assert trusted(known, place) == approx(trust, abs=1e-12)
 
 
 def test_nothing_jumps_at_the_border_of_the_ranges(tmp_path: Path) -> None:
