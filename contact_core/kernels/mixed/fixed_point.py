@@ -33,8 +33,8 @@ _LINE_SWEEPS = 1
 _STIFF_STEP = 0.4  # part of their correction that nodes in the stiff zone take
 _RENEW = 0.02  # share of the stiff zone that changes before the lever of the load is computed anew
 _LEAST_PART = 0.1  # of the load, that the balance of a film that conserves its mass counts with
-# oil of this part of what asperities carry is none where cavities hold oil: p - s(h) is a small difference there, and its
-# sign would decide between a cavity and a full node anew in every iteration
+# oil of this part of what asperities carry is none where cavities hold oil: p - s(h) is a small difference there, and
+# its sign would decide between a cavity and a full node anew in every iteration
 _TRACE = 0.02
 _SHARE_TOLERANCE = 0.02  # nodes at the floor with a fluid pressure of about p change sides for ever, p unchanged
 
