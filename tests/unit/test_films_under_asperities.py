@@ -68,9 +68,7 @@ def test_oil_and_asperities_share_the_pressure_by_the_law_at_every_node(method):
     assert (it.fluid >= 0.0).all()
 
 
-@pytest.mark.parametrize(
-    ("mobility", "stress", "depth"), [(300.0, 2.0, 0.005), (3e3, 2.0, 0.005), (300.0, 1.0, 0.02)]
-)
+@pytest.mark.parametrize(("mobility", "stress", "depth"), [(300.0, 2.0, 0.005), (3e3, 2.0, 0.005), (300.0, 1.0, 0.02)])
 def test_cavities_hold_their_oil_under_asperities(mobility, stress, depth):
     """At the edge of a cavity asperities still touch: the sign of p - s(h) there must not decide what a node is."""
     case, smooth, half_space = wavy(mobility, wave=0.0, conserving=True)
