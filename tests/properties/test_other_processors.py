@@ -1,4 +1,4 @@
-"""Other kernels of BLAS and other instructions of numba round differently: answers agree within part of their errors."""
+"""Other kernels of BLAS and other instructions of numba round differently: answers agree within part of an error."""
 
 import json
 import os
