@@ -71,7 +71,7 @@ def test_oil_and_asperities_share_the_pressure_by_the_law_at_every_node(method):
 
 @pytest.mark.parametrize(("mobility", "stress", "depth"), [(300.0, 2.0, 0.005), (3e3, 2.0, 0.005), (300.0, 1.0, 0.02)])
 def test_cavities_hold_their_oil_under_asperities(mobility, stress, depth):
-    """At the edge of a cavity asperities still touch; the sign of p - s(h) there must not keep the hybrid from settling."""
+    """At the edge of a cavity asperities still touch: the sign of p - s(h) there must not decide what a node is."""
     case, smooth, half_space = wavy(mobility, wave=0.0, conserving=True)
     case = replace(case, stress=stress, depth=depth)
     hybrid, newton = (METHODS[name][0](half_space, case, start(case, smooth), 2e-3, 150) for name in METHODS)

@@ -29,12 +29,11 @@ Mask = NDArray[np.bool_]
 
 _DEPTH = 3  # of Anderson's memory: more does not help where contacts change
 _SWEEPS_UNDER_CONTACTS = 6
-_LINE_SWEEPS = 1
 _STIFF_STEP = 0.4  # part of their correction that nodes in the stiff zone take
 _RENEW = 0.02  # share of the stiff zone that changes before the lever of the load is computed anew
 _LEAST_PART = 0.1  # of the load, that the balance of a film that conserves its mass counts with
-# oil of this part of what asperities carry is none where cavities hold oil: p - s(h) is a small difference there, and its
-# sign would decide between a cavity and a full node anew in every iteration
+# oil of this part of what asperities carry is none where cavities hold oil: p - s(h) is a small difference there, and
+# its sign would decide between a cavity and a full node anew in every iteration
 _TRACE = 0.02
 _SHARE_TOLERANCE = 0.02  # nodes at the floor with a fluid pressure of about p change sides for ever, p unchanged
 
@@ -134,6 +133,8 @@ def _bounded(p, image, cap, edge, weight, wrapped):  # type: ignore[no-untyped-d
 class Iteration:
     """One fixed-point iteration and its scratch arrays."""
 
+    sweeps = 1  # of the lines, in an iteration
+
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate, depth: int, stiff_step: float) -> None:
         self.half_space, self.problem, self.start, self.stiff_step = half_space, problem, start, stiff_step
         shape = start.pressure.shape
@@ -174,7 +175,7 @@ class Iteration:
         if self.ruled is not None:
             scales = (self.half_space.near[0, 0], self.patch, q.compliance * q.spacing**2)
             share_out(p, self.h, self.solid, *self.flow.faces, *q.layer, *scales, self.ruled, *layer)
-        relaxation = (q.lumped, _LINE_SWEEPS, self.dp, *layer, *inlet, q.wrapped)
+        relaxation = (q.lumped, self.sweeps, self.dp, *layer, *inlet, q.wrapped)
         corrections.relax_lines(p, self.f, self.solid, self.stiff, *film, *near, *relaxation)
         lever = (self.stiff, self.unit, self.damping, q.load, q.edge, q.weight, q.wrapped)
         vector = self.memory.image

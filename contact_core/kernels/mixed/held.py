@@ -115,6 +115,8 @@ def _step_under_contacts(  # type: ignore[no-untyped-def]
 class _Held(Iteration):
     """An iteration in small steps, with oil under contacts in balance and nodes held above the floor."""
 
+    sweeps = 30  # fill pockets closed off by contacts, to which oil flows along narrow paths
+
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
         super().__init__(half_space, problem, start, _DEPTH, _STIFF_STEP)
         self.damping = _DAMPING
