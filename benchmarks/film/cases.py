@@ -13,6 +13,7 @@ from contact_core.film.instant import FilmSolution, Grid, Instant, Settings
 from contact_core.film.outputs import film_outputs
 from contact_core.film.routes import prolonged, solve_film
 from contact_core.film.scaled import Scaled
+from contact_core.film.solutions import solution
 from contact_core.kernels.mixed.fixed_point import solve_mixed
 from contact_core.kernels.mixed.newton import solve_newton
 from contact_core.laws.density import DowsonHigginson, Incompressible
@@ -209,7 +210,7 @@ def cascade(case: RoughCase, grids: Sequence[int], settings: Settings) -> list[L
             scaled = Scaled(now, grid, settings)
             begin = scaled.iterate(prolonged(levels[-1].film.state, grid.shape))
             found = solve(scaled.half_space, scaled.problem(), begin, settings.tolerance, most)
-            film = scaled.solution(found, "mixed", f"{name} from the coarser grid")
+            film = solution(scaled, found, "mixed", f"{name} from the coarser grid")
         seconds = time.process_time() - start
         outputs = film_outputs(grid, film.state, film.gap, film.touching, case.load, case.hertz)
         levels.append(Level(nodes, grid, film, outputs, seconds))

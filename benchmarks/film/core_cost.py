@@ -18,6 +18,8 @@ from contact_core.film.instant import FilmState, Grid, Instant, Settings, Step
 from contact_core.film.outputs import at_centre
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
+from contact_core.film.solutions import solution
+from contact_core.film.starts import dry_start
 from contact_core.kernels.mixed.advection import advected
 from contact_core.kernels.mixed.fixed_point import solve_mixed
 from contact_core.kernels.mixed.held import solve_held
@@ -188,7 +190,7 @@ def warm(scene: Scene, now: Instant, step: float, before: FilmState, iterations:
 def from_dry(scene: Scene, now: Instant, step: float, before: FilmState, iterations: int) -> tuple[Scaled, Solution]:
     """The same step from the dry contact, found on the way."""
     scaled, problem = posed(scene, now, step, before)
-    return scaled, solve_mixed(scaled.half_space, problem, scaled.dry_start(), 0.0, iterations)
+    return scaled, solve_mixed(scaled.half_space, problem, dry_start(scaled), 0.0, iterations)
 
 
 def settings_of(scene: Scene, tolerance: float, iterations: int) -> Settings:
@@ -253,9 +255,9 @@ def steps(report: Page, scene: Scene, correlation: str, unit: float) -> dict[str
                 errors[name].append([off(found.iterate.pressure, pressure) for (_, found), _ in runs])
         if n == LEAD + 1:
             scaled, problem = posed(scene, now, step, state)
-            other = solve_held(scaled.half_space, problem, scaled.dry_start(), 1e-5, 100)
+            other = solve_held(scaled.half_space, problem, dry_start(scaled), 1e-5, 100)
             independent = off(pressure, other.iterate.pressure)
-        state = scaled.solution(reference, "mixed", "").state
+        state = solution(scaled, reference, "mixed", "").state
     unit = min(unit, unit_of(scene.film.points))
     report.say(
         f"One step, correlation {correlation}: W_c {np.mean(shares):.3f}. One work unit was {1e3 * unit:.3f} ms. The reference "

@@ -12,6 +12,8 @@ from contact_core.film.instant import FilmSolution, Instant, Settings
 from contact_core.film.outputs import film_outputs
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
+from contact_core.film.solutions import solution
+from contact_core.film.starts import dry_start, lifted_start
 from contact_core.kernels.half_space import HalfSpace
 from contact_core.kernels.mixed.fixed_point import solve_mixed
 from contact_core.kernels.mixed.problem import Iterate, Problem, Solution
@@ -51,7 +53,7 @@ def solved(scaled: Scaled, method: str, start: Iterate) -> FilmSolution:
     """Steady film by a method from a start, whatever the table would have it begin with."""
     solve, most = METHODS[method]
     found = solve(scaled.half_space, scaled.problem(), start, scaled.settings.tolerance, most)
-    return scaled.solution(found, "mixed", method)
+    return solution(scaled, found, "mixed", method)
 
 
 def off(pressure: np.ndarray, reference: np.ndarray) -> float:
@@ -82,7 +84,7 @@ def run() -> None:
         for speed in SPEEDS:
             scaled = Scaled(instant(scene, speed), grid, settings)
             films, seconds = timed(
-                lambda s=scaled, m=method: [solved(s, m, start) for start in (s.dry_start(), s.lifted_start())]
+                lambda s=scaled, m=method: [solved(s, m, start) for start in (dry_start(s), lifted_start(s))]
             )
             hertz = scene.hertz(scaled.now.load)
             dry, thick = (

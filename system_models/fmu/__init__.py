@@ -3,7 +3,8 @@
     model      an FMU as its modelDescription.xml has it
     instance   a running FMU: the common part of both versions of FMI
     fmi2, fmi3 the running FMU of each version
-    loading    unpacks FMUs and loads their libraries
+    kinds      kinds of variables, by type and variability
+    loading    unpacks FMUs; library: loads their libraries
     start      starts an instance of each of several FMUs
     messages   messages of FMUs go to `logging`
     errors     errors of FMUs and of systems of them

@@ -13,6 +13,8 @@ The simulation:
     stepping      a communication step of a given size; controlled: as large as a tolerance allows
     events        the time of an event within a step
     coupled       the running FMUs of a system: exchange, advance, save, restore
+    passed_on     connections to inputs that hold their values over a step
+    magnitudes    magnitudes of outputs, by which tolerances are relative
     initial       consistent initial values
     wiring        connections as arrays; sequence: order of the FMUs; linear: correction by derivatives
 

@@ -7,7 +7,7 @@ import pytest
 from independent import force_beyond
 
 from contact_core.calls.point_contact import point_contact
-from contact_core.film import routes, scaled
+from contact_core.film import routes, solutions
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
 
 MODULUS, ALPHA, NODES = 230.47e9, 15e-9, 33
@@ -79,5 +79,5 @@ def test_a_light_film_whose_load_is_not_met_says_so(monkeypatch):
     found = point_contact(**case)
     assert not found.converged
     assert "load error" in found.shortfall
-    assert abs(found.load_error) > scaled.LOAD_ACCEPTED
+    assert abs(found.load_error) > solutions.LOAD_ACCEPTED
     assert any("load error" in sentence for sentence in found.warnings)

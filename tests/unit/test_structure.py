@@ -3,6 +3,7 @@
 import ast
 import re
 from collections.abc import Collection
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -19,11 +20,17 @@ FILES = sorted(file for package in PACKAGES for file in package.rglob("*.py"))
 CORE = PACKAGES[0]
 
 
+@cache
+def tree_of(file: Path) -> ast.Module:
+    """Return the syntax tree of a file."""
+    return ast.parse(file.read_text("utf-8"))
+
+
 def imported(file: Path) -> set[str]:
     """Return the rooms of contact_core that a file of it imports, by their names."""
     found = set()
     here = file.relative_to(CORE.parent).with_suffix("").parts
-    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+    for node in ast.walk(tree_of(file)):
         if isinstance(node, ast.ImportFrom):
             base = list(here[: len(here) - node.level]) if node.level else []
             path = [*base, *(node.module.split(".") if node.module else [])]
@@ -62,7 +69,7 @@ def long_parts(tree: ast.AST) -> list[str]:
 
 
 def test_classes_and_functions_are_small_and_take_few_arguments() -> None:
-    found = {file.name: long_parts(ast.parse(file.read_text("utf-8"))) for file in FILES}
+    found = {file.name: long_parts(tree_of(file)) for file in FILES}
     assert {name: parts for name, parts in found.items() if parts} == {}
 
 
@@ -91,7 +98,7 @@ def test_few_rooms_of_the_core_import_each_other() -> None:
 
 def functions() -> list[tuple[str, ast.FunctionDef]]:
     """Return all functions and methods with the place of each."""
-    trees = [(file, ast.parse(file.read_text("utf-8"))) for file in FILES]
+    trees = [(file, tree_of(file)) for file in FILES]
     return [
         (f"{file.name}:{node.name}", node)
         for file, tree in trees
@@ -122,7 +129,7 @@ def test_scene_and_operating_point_travel_in_a_case() -> None:
 def asked(file: Path, classes: Collection[str], slots: Collection[str]) -> list[str]:
     """Return where a file asks whether something is one of `classes`, or what the name of a slot's record is."""
     found = []
-    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+    for node in ast.walk(tree_of(file)):
         if isinstance(node, ast.Call) and ast.unparse(node.func) in ("isinstance", "issubclass"):
             named = {word for word in re.findall(r"\w+", ast.unparse(node.args[1])) if word in classes}
         elif isinstance(node, ast.MatchClass):
