@@ -185,7 +185,10 @@ def silent(tests: tuple[str, ...] | list[str], failed: list[str]) -> list[str]:
 
 def each(faults: list[Fault], known: dict[str, dict], jobs: int) -> None:
     """Try each fault by itself, and each test without a fault first."""
-    left = [fault for fault in faults if not fault.harmless and known.get(fault.name, {}).get("key") != fault.key]
+    keys = {fault.name: fault.key for fault in faults}  # of the sources that are copied, whatever changes meanwhile
+    left = [
+        fault for fault in faults if not fault.harmless and known.get(fault.name, {}).get("key") != keys[fault.name]
+    ]
     print(f"{len(faults)} faults, {len(left)} of them to be tried")
     if not left:
         return
@@ -218,7 +221,7 @@ def each(faults: list[Fault], known: dict[str, dict], jobs: int) -> None:
                 )
                 if code not in (0, 1):
                     print("The tests did not end." if code is None else text)
-                known[fault.name] = {"key": fault.key, "silent": missed}
+                known[fault.name] = {"key": keys[fault.name], "silent": missed}
                 FOUND.parent.mkdir(exist_ok=True)
                 FOUND.write_text(json.dumps(known, indent=1))
 
