@@ -1,6 +1,7 @@
 """Abilities of the embedded flavour, and each limit of pythonfmu that no guard in Python can remove.
 
-A limit is a strict xfail of the right behaviour: its test fails as soon as pythonfmu removes the limit.
+A limit is a strict xfail of the right behaviour: its test fails as soon as pythonfmu removes the limit. Only a new
+pythonfmu can change that, so these are long.
 """
 
 import contextlib
@@ -27,7 +28,8 @@ OUTPUTS = ("friction_force", "h_c", "wear_volume_1")
 
 
 def limit(reason: str, raises: type[BaseException] | tuple[type[BaseException], ...] = AssertionError):
-    return pytest.mark.xfail(strict=True, reason=reason, raises=raises)
+    known = pytest.mark.xfail(strict=True, reason=reason, raises=raises)
+    return lambda test: pytest.mark.long(known(test))
 
 
 def exit_code(folder: Path, code: str = "") -> int:
