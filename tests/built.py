@@ -82,7 +82,10 @@ class Built:
             return {path.name: path.read_text("utf-8") for path in sorted(folder.iterdir())}
 
         def object_of(*source: Any) -> bytes:
-            folder = self.folder(("object", *source), lambda folder: (folder / "one.o").write_bytes(compiled(*source)))
+            folder = self.folder(
+                ("object", native_build.FLAGS, *source),
+                lambda folder: (folder / "one.o").write_bytes(compiled(*source)),
+            )
             return (folder / "one.o").read_bytes()
 
         with pytest.MonkeyPatch.context() as patch:
@@ -95,4 +98,4 @@ def _key(source: Scene | Part, flavour: Flavour, fmi: Version, options: dict[str
     """All that decides what the FMU contains."""
     guid = resources.guid if isinstance(source, Scene) else resources_of_parts.guid
     compiler = native_build.default_compiler() if flavour == "native" else None
-    return guid(source, flavour, fmi), compiler, sorted(options.items())
+    return guid(source, flavour, fmi), compiler, native_build.FLAGS, sorted(options.items())

@@ -96,7 +96,7 @@ def misfits(faults: list[Fault]) -> list[str]:
                 wrong.append(f"{fault.name}: its text occurs {count} times in {file}, or nothing changes")
         for test in fault.tests:
             path, _, function = test.partition("::")
-            if f"def {function.partition('[')[0]}" not in text(path):
+            if (f"def {function.partition('[')[0]}(" not in text(path) and function) or not text(path):
                 wrong.append(f"{fault.name}: there is no test {test}")
     return wrong
 
@@ -142,9 +142,12 @@ class Copy:
                 # numba looks only at the file of the function called: kernels that use a changed one stay as they were
                 environment["NUMBA_CACHE_DIR"] = str(kept / "kernels")
             if native:
-                subprocess.run(
-                    [self.python, "-m", "fmu_src.isolated.native.build"], cwd=self.tree, env=environment, check=True
+                build = [self.python, "-m", "fmu_src.isolated.native.build"]
+                built = subprocess.run(
+                    build, cwd=self.tree, env=environment, capture_output=True, text=True, check=False
                 )
+                if built.returncode != 0:
+                    return None, [], built.stderr
             return self._pytest(tests, environment, LONGEST * max(1, len(tests) // 5))
         finally:
             if native:
@@ -220,7 +223,7 @@ def each(faults: list[Fault], known: dict[str, dict], jobs: int) -> None:
                     sep="\n    silent: " if missed else "",
                 )
                 if code not in (0, 1):
-                    print("The tests did not end." if code is None else text)
+                    print(text, "" if code is not None else "The tests did not end, or could not begin.", sep="\n")
                 known[fault.name] = {"key": keys[fault.name], "silent": missed}
                 FOUND.parent.mkdir(exist_ok=True)
                 FOUND.write_text(json.dumps(known, indent=1))

@@ -148,9 +148,9 @@ REGIMES = (
     ),
     Regime(
         "light",
-        (("newton", "film"), ("newton", "dry")),
+        (("newton", "film"), ("newton", "dry"), ("hybrid", "last")),
         load=(0.0, 50.0),
-        by_flux=(("hybrid", "flooded"), ("newton", "film"), ("newton", "dry")),
+        by_flux=(("hybrid", "flooded"), ("newton", "film"), ("newton", "dry"), ("hybrid", "last")),
     ),
     Regime("boundary", (("hybrid", "dry"),), clearance=(0.0, 0.03)),
     Regime("thick film", (("hybrid", "nested"), ("newton", "film")), clearance=(1.5, math.inf), load=(0.0, 300.0)),

@@ -15,7 +15,10 @@ from contact_core.laws.asperity_layer import AsperityLayer
 
 NODES, TOLERANCE, SIZE = 33, 3e-3, 1e-12
 SEEDS = 1, 2
-FILM, SHARE = 0.2e-9, 0.02  # of films in meters, of the solids' share of the load: what may differ at the floor
+FILM, SHARE = (
+    0.2e-9,
+    0.02,
+)  # differences that always may be: of films [m], a fifth of a floor; of the solids' share of the load
 NEAR_THE_FLOOR = "held", "marched"  # methods of films of a few floors: values agree within their stated errors
 CONSERVING = {"cavitation": "mass_conserving"}
 OIL_UNDER_CONTACTS = Point(14, 0.006276386, 4.616751, -5.319565e-05, 1.791374, 2.216535e-07)
@@ -56,48 +59,51 @@ def roller(load, profile):
 
 ONE_ROW = {key: value for key, value in line(20.0, 1.0)[1].items() if key not in ("heights_2", "spacing")}
 ONE_ROW = ONE_ROW | {"grid": NODES}
-CALLS = {
-    "circle, smooth": ball(20.0, 1.0),
-    "circle, smooth and light": ball(0.05, 1.0),
-    "circle, smooth, of second order upstream": ball(20.0, 1.0, flux="upwind"),
-    "circle, smooth and heavy": ball(300.0, 0.05),
-    "circle, light": ball(0.1, 1.0, 30e-9),
-    "circle, moderate": ball(2.0, 0.3, 150e-9),
-    "circle, thick film": ball(2.0, 1.0, 30e-9),
-    "circle, film": ball(50.0, 1.0, 50e-9),
-    "circle, mixed": ball(50.0, 0.3, 150e-9),
-    "circle, back": ball(50.0, -0.3, 150e-9),
-    "circle, boundary": ball(50.0, 0.003, 300e-9),
-    "circle, dry": ball(50.0, 1e-6, 300e-9),
-    "circle, smooth, conserving": ball(20.0, 1.0, **CONSERVING),
-    "circle, smooth, starved": ball(20.0, 1.0, **CONSERVING, supply=5e-8),
-    "circle, smooth, meniscus": ball(20.0, 1.0, meniscus=2e-4),
-    "circle, smooth and light, conserving": ball(0.1, 1.0, **CONSERVING),
-    "circle, light, conserving": ball(0.1, 1.0, 30e-9, **CONSERVING),
-    "circle, light, starved": ball(0.1, 1.0, 30e-9, **CONSERVING, supply=1e-7),
-    "circle, light, meniscus": ball(0.1, 1.0, 30e-9, meniscus=8e-5),
-    "circle, film, conserving": ball(50.0, 1.0, 50e-9, **CONSERVING),
-    "circle, film, starved": ball(50.0, 1.0, 50e-9, **CONSERVING, supply=5e-8),
-    "circle, mixed, conserving": ball(50.0, 0.3, 150e-9, **CONSERVING),
-    "circle, mixed, meniscus": ball(50.0, 0.3, 150e-9, meniscus=3e-4),
-    "ellipse, smooth": ball(20.0, 1.0, ratio=3.0),
-    "ellipse, mixed": ball(50.0, 0.3, 150e-9, ratio=0.3),
-    "ellipse, light": ball(0.1, 1.0, 30e-9, ratio=0.3),
-    "one row": (line_contact, ONE_ROW),
-    "one row, conserving": (line_contact, ONE_ROW | CONSERVING),
-    "one row, starved": (line_contact, ONE_ROW | CONSERVING | {"supply": 1e-7}),
-    "line, clear": line(20.0, 1.0, 50e-9),
-    "line, clear, conserving": line(20.0, 1.0, 50e-9, **CONSERVING),
-    "line, light": line(0.1, 1.0, 100e-9),
-    "line, moderate": line(2.0, 0.3, 300e-9),
-    "line, mixed": line(100.0, 0.1, 150e-9),
-    "line, dry": line(50.0, 1e-6, 300e-9),
-    "roller, smooth": roller(3e5, Logarithmic(3e-6)),
-    "roller, its ends touch": roller(3e5, Rounded(2.2e-3, 1.0)),
-    "near the floor, oil under contacts": (point_contact, OIL_UNDER_CONTACTS.arguments(NODES)),
-    "near the floor, nodes at it": (point_contact, NODES_AT_THE_FLOOR.arguments(NODES)),
-    "near the floor, pockets": (point_contact, POCKETS.arguments(NODES)),
-    "near the floor, a line": (line_contact, LINE.line_arguments(65)),
+CALLS = {  # by the row of `routes.REGIMES` that they belong to
+    "smooth: circle": ball(20.0, 1.0),
+    "smooth: circle, light": ball(0.05, 1.0),
+    "smooth: circle, of second order upstream": ball(20.0, 1.0, flux="upwind"),
+    "smooth: circle, heavy": ball(300.0, 0.05),
+    "light: circle": ball(0.1, 1.0, 30e-9),
+    "light: circle, thin film": ball(2.0, 0.3, 150e-9),
+    "light: circle, thick film": ball(2.0, 1.0, 30e-9),
+    "film: circle": ball(100.0, 0.5, 50e-9),
+    "thick film: circle": ball(50.0, 1.0, 50e-9),
+    "mixed: circle": ball(50.0, 0.3, 150e-9),
+    "mixed: circle, entrained the other way": ball(50.0, -0.3, 150e-9),
+    "boundary: circle": ball(50.0, 0.003, 300e-9),
+    "dry: circle": ball(50.0, 1e-6, 300e-9),
+    "smooth: circle, conserving": ball(20.0, 1.0, **CONSERVING),
+    "smooth: circle, starved": ball(20.0, 1.0, **CONSERVING, supply=5e-8),
+    "smooth: circle, meniscus": ball(20.0, 1.0, meniscus=2e-4),
+    "smooth: circle, light, conserving": ball(0.1, 1.0, **CONSERVING),
+    "light: circle, conserving": ball(0.1, 1.0, 30e-9, **CONSERVING),
+    "smooth: circle, light, starved": ball(0.1, 1.0, 30e-9, **CONSERVING, supply=1e-7),
+    "light: circle, meniscus": ball(0.1, 1.0, 30e-9, meniscus=8e-5),
+    "thick film: circle, conserving": ball(50.0, 1.0, 50e-9, **CONSERVING),
+    "moderate: circle, starved": ball(50.0, 1.0, 50e-9, **CONSERVING, supply=5e-8),
+    "mixed: circle, conserving": ball(50.0, 0.3, 150e-9, **CONSERVING),
+    "mixed: circle, meniscus": ball(50.0, 0.3, 150e-9, meniscus=3e-4),
+    "smooth: ellipse": ball(20.0, 1.0, ratio=3.0),
+    "mixed: ellipse": ball(50.0, 0.3, 150e-9, ratio=0.3),
+    "light: ellipse": ball(0.1, 1.0, 30e-9, ratio=0.3),
+    "line: one row": (line_contact, ONE_ROW),
+    "line: one row, conserving": (line_contact, ONE_ROW | CONSERVING),
+    "line: one row, starved": (line_contact, ONE_ROW | CONSERVING | {"supply": 1e-7}),
+    "clear line: heavy": line(20.0, 1.0, 50e-9),
+    "clear line: conserving": line(20.0, 1.0, 50e-9, **CONSERVING),
+    "clear line: thick film": line(0.1, 1.0, 100e-9),
+    "light line: rough": line(0.1, 0.03, 150e-9),
+    "rough line: thin film": line(0.5, 0.03, 150e-9),
+    "moderate line: rough": line(2.0, 0.3, 300e-9),
+    "mixed line: rough": line(100.0, 0.1, 150e-9),
+    "dry: line": line(50.0, 1e-6, 300e-9),
+    "roller: smooth": roller(3e5, Logarithmic(3e-6)),
+    "roller: its ends touch": roller(3e5, Rounded(2.2e-3, 1.0)),
+    "boundary: near the floor, oil under contacts": (point_contact, OIL_UNDER_CONTACTS.arguments(NODES)),
+    "boundary: near the floor, nodes at it": (point_contact, NODES_AT_THE_FLOOR.arguments(NODES)),
+    "mixed: near the floor, pockets": (point_contact, POCKETS.arguments(NODES)),
+    "mixed line: near the floor": (line_contact, LINE.line_arguments(65)),
 }
 DISTURBED = "load", "speed_1", "speed_2", "viscosity", "heights_2"
 
@@ -139,6 +145,10 @@ def agree(one, other, stated=(0.0, 0.0)):
     assert abs(share - other_share) < max(SHARE, share_error)
 
 
+def test_every_row_of_the_table_is_here():
+    assert {name.partition(":")[0] for name in CALLS} == {row.name for row in routes.REGIMES}
+
+
 @pytest.mark.parametrize("name", CALLS)
 def test_a_call_gives_the_same_verdict_and_values(name, noise):
     call, given = CALLS[name]
@@ -150,6 +160,7 @@ def test_a_call_gives_the_same_verdict_and_values(name, noise):
         share = found.solid_pressure.sum() / found.pressure.sum()
         answers.append((found.converged, found.algorithm, found.pressure, found.film, share))
         stated = [found.error_estimate[each] for each in ("h_c", "contact_load_ratio")]
+    assert answers[0][1].partition(":")[0] == name.partition(":")[0]
     for other in answers[1:]:
         agree(answers[0], other, stated)
 
@@ -163,10 +174,10 @@ def layered(ratio, rms, rq=131.5e-9, **more):
 
 
 LAYERS = {
-    "boundary": layered(0.05, 10e-9),
-    "mixed": layered(0.3, 10e-9),
+    "hardly any film": layered(0.05, 10e-9),
+    "thin film": layered(0.3, 10e-9),
     "film": layered(1.0, 10e-9),
-    "thick": layered(4.0, 50e-9),
+    "thick film, higher asperities": layered(4.0, 50e-9),
     "smooth": layered(0.3, 50e-9, 0.0),
     "conserving": layered(0.3, 10e-9, 0.0, conserving=True),
     "meniscus": layered(1.0, 10e-9, 0.0, meniscus=300e-6),

@@ -5,8 +5,10 @@ import os
 import subprocess
 import sys
 
+import llvmlite.binding
 import pytest
 
+KERNELS = {"Prescott": "sse3", "Haswell": "avx2", "SkylakeX": "avx512f"}  # of OpenBLAS; what a processor needs for them
 SCRIPT = """
 import ctypes, json
 from pathlib import Path
@@ -55,11 +57,13 @@ def agree(own, other):
             assert abs(other["answers"][scene][name][0] - value) <= 0.1 * error + 1e-9 * abs(value), (scene, name)
 
 
-@pytest.mark.parametrize("kernels", ["Prescott", "Haswell", "SkylakeX"])
+@pytest.mark.parametrize("kernels", KERNELS)
 def test_other_kernels_of_blas_give_the_same_within_part_of_the_error(kernels, own):
+    if not llvmlite.binding.get_host_cpu_features().get(KERNELS[kernels]):
+        pytest.skip(f"this processor has no {KERNELS[kernels]}, and OpenBLAS does not ask")
     other = answers(OPENBLAS_CORETYPE=kernels)
     if other["kernels"] == own["kernels"]:
-        pytest.skip(f"this processor or BLAS has {own['kernels']} alone")
+        pytest.skip(f"these are its own kernels: {', '.join(own['kernels']) or 'no OpenBLAS was found'}")
     agree(own, other)
 
 

@@ -37,7 +37,7 @@ def unrendered(figure: Figure, file: str | Path | IO[bytes], **options: Any) -> 
         out.write(b"\x89PNG\r\n\x1a\n")
 
 
-@pytest.fixture(scope="package", autouse=True)
+@pytest.fixture(scope="module", autouse=True)
 def _pictures_are_drawn_and_not_rendered() -> Iterator[None]:
     """Rendering is half of the time of a short run; tests of pictures ask for `rendered`."""
     with pytest.MonkeyPatch.context() as patch:
@@ -85,8 +85,9 @@ def gears(built: Built) -> Path:
 
 @pytest.fixture
 def unoptimised(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Compile native FMUs for this platform alone and quickly; by `cc`, as tests share what `gcc` has compiled."""
-    monkeypatch.setattr(native_build, "default_compiler", lambda: "cc")
+    """Compile native FMUs for this platform alone and quickly."""
+    compiler = "gcc" if native_build.available("gcc") else "cc"
+    monkeypatch.setattr(native_build, "default_compiler", lambda: compiler)
     monkeypatch.setattr(native_build, "FLAGS", tuple(flag for flag in native_build.FLAGS if flag != "-O2"))
 
 

@@ -46,7 +46,7 @@ def test_figures_of_a_measurement_stand_on_that_page_and_not_in_readme() -> None
         ("surfaces/evolution.md", "1.4 (0.38)", "1.4 (0.01)", "| 1 % (wear 1) |"),
         ("film/moving.md", "| mtm_zddp | 1 | 257 | 0.8022 |", "| mtm_zddp | 1 | 257 | 0.1 |", "-32 % (W_c)"),
         ("coupling/masters.md", "PyCosimLibrary 0.0.5, iterated Jacobi | 4102 | 10.0", "P | 4102 | 0.3", "| 0.3 |"),
-        ("film/core_cost.md", "| 96 | yes |", "| 96 | **no** |", "not met |"),
+        ("film/core_cost.md", "| 87 | yes |", "| 87 | **no** |", "not met |"),
     ],
 )
 def test_a_worse_figure_of_a_page_becomes_the_worst(name: str, old: str, new: str, said: str, tmp_path: Path) -> None:
