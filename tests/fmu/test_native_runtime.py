@@ -79,8 +79,10 @@ FAULTS = {
 }
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("fault", FAULTS)
+FIRST, *OTHERS = FAULTS
+
+
+@pytest.mark.parametrize("fault", [FIRST, *(pytest.param(fault, marks=pytest.mark.long) for fault in OTHERS)])
 def test_random_calls_find_faults(fault: str, tmp_path: Path) -> None:
     file, line = FAULTS[fault]
     sources = native_fmu.all_sources()
