@@ -85,6 +85,7 @@ CALLS = {  # by the row of `routes.REGIMES` that they belong to
     "mixed: circle, conserving": ball(50.0, 0.3, 150e-9, **CONSERVING),
     "mixed: circle, meniscus": ball(50.0, 0.3, 150e-9, meniscus=3e-4),
     "smooth: ellipse": ball(20.0, 1.0, ratio=3.0),
+    "smooth: ellipse, conserving": ball(20.0, 1.0, ratio=3.0, **CONSERVING),
     "mixed: ellipse": ball(50.0, 0.3, 150e-9, ratio=0.3),
     "light: ellipse": ball(0.1, 1.0, 30e-9, ratio=0.3),
     "line: one row": (line_contact, ONE_ROW),
@@ -92,6 +93,7 @@ CALLS = {  # by the row of `routes.REGIMES` that they belong to
     "line: one row, starved": (line_contact, ONE_ROW | CONSERVING | {"supply": 1e-7}),
     "clear line: heavy": line(20.0, 1.0, 50e-9),
     "clear line: conserving": line(20.0, 1.0, 50e-9, **CONSERVING),
+    "clear line: starved": line(20.0, 1.0, 50e-9, **CONSERVING, supply=2e-7),
     "clear line: thick film": line(0.1, 1.0, 100e-9),
     "light line: rough": line(0.1, 0.03, 150e-9),
     "rough line: thin film": line(0.5, 0.03, 150e-9),
@@ -99,6 +101,7 @@ CALLS = {  # by the row of `routes.REGIMES` that they belong to
     "mixed line: rough": line(100.0, 0.1, 150e-9),
     "dry: line": line(50.0, 1e-6, 300e-9),
     "roller: smooth": roller(3e5, Logarithmic(3e-6)),
+    "roller: conserving": (line_contact, roller(3e5, Logarithmic(3e-6))[1] | CONSERVING),
     "roller: its ends touch": roller(3e5, Rounded(2.2e-3, 1.0)),
     "boundary: near the floor, oil under contacts": (point_contact, OIL_UNDER_CONTACTS.arguments(NODES)),
     "boundary: near the floor, nodes at it": (point_contact, NODES_AT_THE_FLOOR.arguments(NODES)),
@@ -202,10 +205,21 @@ def test_a_film_under_asperities_gives_the_same_verdict_and_values(name, noise):
         agree(answers[0], other)
 
 
+MARCHES = {
+    "mixed": layered(0.3, 0.0),
+    "mixed, asperities below the grid": layered(0.3, 10e-9),
+    "film": layered(1.0, 0.0),
+    "film, asperities below the grid": layered(1.0, 10e-9),
+    "film, conserving": layered(1.0, 0.0, conserving=True),
+    "film, starved": layered(1.0, 0.0, conserving=True, supply=3e-7),
+    "thick film": layered(4.0, 0.0),
+}
+
+
 @pytest.mark.parametrize("thorough", [False, True])
-@pytest.mark.parametrize(("ratio", "rms"), [(0.3, 0.0), (0.3, 10e-9), (1.0, 0.0), (1.0, 10e-9), (4.0, 0.0)])
-def test_a_march_gives_the_same_verdict_and_values(ratio, rms, thorough, noise):
-    now, grid = layered(ratio, rms)
+@pytest.mark.parametrize("name", MARCHES)
+def test_a_march_gives_the_same_verdict_and_values(name, thorough, noise):
+    now, grid = MARCHES[name]
     first, answers = solve_film(now, grid, SETTINGS).state, []
     for seed in (None, *SEEDS):
         off, state, heights = noise(seed), first, now.heights
