@@ -22,6 +22,19 @@ PAGES = Pages(MEASURED)
 UNITS = r"(?:%|[mu]s\b|s\b|MB\b|kB\b|WU\b|times\b|work units|seconds|minutes)"
 
 
+@pytest.mark.parametrize(
+    ("cause", "shown"),
+    [
+        ("agrees with *a finer grid*: 3 nm", True),
+        ("closed form: 3 nm", True),
+        ("disagrees with *a finer grid*, too: 4 nm", False),
+        ("*a finer grid* was not run yet", False),
+    ],
+)
+def test_a_cause_is_shown_by_an_experiment_that_turns_the_claim_or_by_a_closed_form(cause: str, shown: bool) -> None:
+    assert Judged("disagree", "4 nm", (cause,)).explained == shown
+
+
 def page(name: str) -> str:
     return (MEASURED / name).read_text("utf-8")
 
