@@ -46,6 +46,16 @@ def test_a_steady_film_does_not_depend_on_its_start(wave, bound):
         assert difference(found[1], one) < bound
 
 
+def test_oil_and_solids_share_the_load_at_the_floor_the_same_from_any_start():
+    """The share settles long after the stopping rule holds: at a tolerance of 5e-3 it is 0.46 and 0.23."""
+    case, smooth, half_space = problem(N, N, 0.5 * WAVE, mobility=HEAVY)
+    starts = dry_start(case, smooth, half_space), film_start(case, smooth)
+    found = [solve_mixed(half_space, case, start, 0.0, 300) for start in starts]
+    alone = [(one.iterate.pressure - one.iterate.fluid)[one.iterate.solid].sum() / case.load for one in found]
+    assert alone[0] == approx(alone[1], abs=0.01)
+    assert 0.95 < found[0].iterate.solid.sum() / found[1].iterate.solid.sum() < 1.05
+
+
 @pytest.mark.parametrize("budget", [3, 12])
 @pytest.mark.parametrize("solve", [solve_mixed, solve_newton])
 def test_a_film_that_runs_out_of_iterations_says_so(budget, solve):

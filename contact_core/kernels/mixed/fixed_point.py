@@ -167,16 +167,8 @@ class Iteration:
         """Compute the film of the present iterate; put its image into Anderson's memory."""
         self._film()
         self._press()
+        self._relax()
         q, p = self.problem, self.p
-        film = (self.h, self.mass, *self.flow.faces, self.r, q.edge, q.floor, q.depth, *q.terms)
-        near = (self.half_space.near, self.patch_wide)
-        inlet = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
-        layer = (self.over_oil, self.lack)
-        if self.ruled is not None:
-            scales = (self.half_space.near[0, 0], self.patch, q.compliance * q.spacing**2)
-            share_out(p, self.h, self.solid, *self.flow.faces, *q.layer, *scales, self.ruled, *layer)
-        relaxation = (q.lumped, self.sweeps, self.dp, *layer, *inlet, q.wrapped)
-        corrections.relax_lines(p, self.f, self.solid, self.stiff, *film, *near, *relaxation)
         lever = (self.stiff, self.unit, self.damping, q.load, q.edge, q.weight, q.wrapped)
         vector = self.memory.image
         shift, change = _next_pressure(p, q.cap, self.dh, *lever, self.dp, self._pressure_of(vector))
@@ -244,6 +236,19 @@ class Iteration:
             self.stiff_of_unit[:] = self.stiff
         _place(self.dh, top, bottom, left, right, inverse.field)
         _begin(self.stiff, inverse.run(), top, left, self.stiff_step, self.dp)
+
+    def _relax(self) -> None:
+        """Relax the pressure off the stiff zone by lines."""
+        q, p = self.problem, self.p
+        film = (self.h, self.mass, *self.flow.faces, self.r, q.edge, q.floor, q.depth, *q.terms)
+        near = (self.half_space.near, self.patch_wide)
+        inlet = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
+        layer = (self.over_oil, self.lack)
+        if self.ruled is not None:
+            scales = (self.half_space.near[0, 0], self.patch, q.compliance * q.spacing**2)
+            share_out(p, self.h, self.solid, *self.flow.faces, *q.layer, *scales, self.ruled, *layer)
+        relaxation = (q.lumped, self.sweeps, self.dp, *layer, *inlet, q.wrapped)
+        corrections.relax_lines(p, self.f, self.solid, self.stiff, *film, *near, *relaxation)
 
     def assess(self, n: int, tolerance: float) -> Solution:
         """Return the present pressure with its convergence.

@@ -9,6 +9,8 @@ alone, as long as it loses mass there; by the stopping rule, solids carry the re
 not depend on the gap: a node that has sunk there and gains mass would be pressed up by many floors, to drain and to
 sink again. Here it is led to just above the floor first, where its gap counts.
 
+Pockets closed off by contacts fill as a whole (`pockets`), those within others first.
+
 A film that is found satisfies the stopping rule with no node held, for changes of the pressure that are not damped.
 """
 
@@ -23,6 +25,7 @@ from . import corrections, reynolds
 from .edge import wrap
 from .fixed_point import Iteration
 from .flow import properties
+from .pockets import fill_pockets
 from .problem import Iterate, Problem, Solution, failed
 from .stopping_rule import excess
 
@@ -32,6 +35,9 @@ _ROUNDS = 16
 _DEPTH, _DAMPING, _STIFF_STEP = 2, 0.2, 0.4  # of Anderson's memory; part of a step that is taken; of stiff nodes
 _PASSES, _PART, _LARGEST_STEP = 3, 0.7, 0.1  # of the oil under contacts, in an iteration; its steps, in units of p
 _OPEN, _REST = 1.001, 1.01  # gap in floors through which oil flows at a held node, at least; at which it rests
+# mobilities of faces that join nodes to pockets, over that below which elasticity rules; part of what balances a pocket
+# that it takes, as contacts around it give way only later
+_JOINED, _FILLED = (1e3, 1e2, 10.0), 0.5
 _UNTIL_HELD = 30  # iterations from the start, and from a release, to the hold of a node
 
 
@@ -115,7 +121,7 @@ def _step_under_contacts(  # type: ignore[no-untyped-def]
 class _Held(Iteration):
     """An iteration in small steps, with oil under contacts in balance and nodes held above the floor."""
 
-    sweeps = 30  # fill pockets closed off by contacts, to which oil flows along narrow paths
+    sweeps = 10  # for each of _JOINED
 
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
         super().__init__(half_space, problem, start, _DEPTH, _STIFF_STEP)
@@ -127,6 +133,14 @@ class _Held(Iteration):
         super().correct()
         self.damping = _DAMPING
         self.change /= _DAMPING
+
+    def _relax(self) -> None:
+        q = self.problem
+        film = (self.p, self.solid, self.stiff, self.h, self.mass, *self.flow.faces, self.r, q.edge, q.floor, q.wedge)
+        for joined in _JOINED:
+            super()._relax()
+            least = joined * q.compliance * q.spacing**2
+            fill_pockets(*film, q.spacing, self.half_space.near, least, _FILLED, q.wrapped, self.dp)
 
     def _film(self) -> None:
         q, flow = self.problem, self.flow
