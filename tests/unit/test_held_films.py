@@ -55,7 +55,7 @@ def test_pockets_that_contacts_all_but_close_off_fill(monkeypatch):
 @pytest.mark.usefixtures("first_algorithms")
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_a_rough_line_near_the_floor_converges_whatever_the_last_bits(seed, monkeypatch):
-    """One node in the inlet that sinks below the floor and gains mass: pressed up too far, it would never settle."""
+    """One node in the inlet that sinks below the floor and gains mass must not decide whether a film is found."""
     monkeypatch.setattr(held, "_ROUNDS", 1)
     given = LINE.line_arguments(NODES)
     off = np.random.Generator(np.random.Philox(seed)).standard_normal(given["heights_2"].shape)

@@ -5,6 +5,7 @@
     fixed_point     the iteration for rough contacts
     marched         steady film at the end of a march in time by that iteration
     held            that iteration in small steps, for films near the floor that do not settle otherwise
+    pockets         oil in pockets that contacts all but close off, for `held`
     newton          Newton's method with the whole half space, for light loads and smooth lines
     reynolds        Reynolds' equation: gap and mass, residual, fluid pressure under contacts, imbalance
     corrections     corrections of `fixed_point`: of the gap in the stiff zone, of the pressure by lines elsewhere
@@ -18,5 +19,5 @@
     advection       prediction after the surfaces have moved
 
 Imports run one way: problem, asperities, edge <- flow <- stopping_rule, reynolds, cavities <- corrections <-
-fixed_point <- held, marched; newton stands beside fixed_point.
+fixed_point <- held (with pockets), marched; newton stands beside fixed_point.
 """

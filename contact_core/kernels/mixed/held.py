@@ -1,15 +1,12 @@
 """Steady film near the floor, where contacts, the oil under them and nodes at the floor do not settle otherwise.
 
-Three things keep the iteration of `fixed_point` from settling there, however small its steps. Under a contact, flow
+Two things keep the iteration of `fixed_point` from settling there, however small its steps. Under a contact, flow
 falls exponentially with the oil's pressure, and its mass balance may have no other term than what entrainment carries:
 Gauss-Seidel on the flow of the iteration before jumps between no pressure and all of it. Here each of these nodes takes
 a Newton step of its own balance. Where a film reaches the floor, the oil is carried along as it is (`flow`): such a
 node gains mass at the floor and loses it above, without an end. Here it is held a little above the floor, under oil
-alone, as long as it loses mass there; by the stopping rule, solids carry the rest. And below the floor the flow does
-not depend on the gap: a node that has sunk there and gains mass would be pressed up by many floors, to drain and to
-sink again. Here it is led to just above the floor first, where its gap counts.
-
-Pockets closed off by contacts fill as a whole (`pockets`), those within others first.
+alone, as long as it loses mass there; by the stopping rule, solids carry the rest. And pockets closed off by contacts
+fill too slowly by lines. Here they fill as a whole (`pockets`), those within others first.
 
 A film that is found satisfies the stopping rule with no node held, for changes of the pressure that are not damped.
 """
@@ -199,9 +196,8 @@ class _Held(Iteration):
         lifted = within & (self.h <= q.floor) & (self.f >= p) & (gain > 0.0)  # the gain is zero on the edge
         self.held = (self.held & ~released) | (lifted & (self.waits == 0))
         self.solid[self.held] = False
-        risen = self.held | lifted
-        self.stiff |= risen
-        self.dh[risen] = _REST * q.floor - self.h[risen]
+        self.stiff |= self.held
+        self.dh[self.held] = _REST * q.floor - self.h[self.held]
         if q.wrapped:
             wrap(self.solid)
         rows, columns = np.nonzero(self.stiff)
