@@ -268,9 +268,7 @@ def test_a_cycle_counts_passes_and_warms_films_by_its_flash_and_its_outputs_are_
         assert getattr(after.outputs, name) == approx(mean, rel=1e-9), name
     assert after.outputs.flash_temperature_rise > 1.0
     flash = after.outputs.flash_temperature_rise
-    cold, warm = (
-        law.rate(op.temperature + part * flash) for part in (0.9, 3.0)
-    )  # most is rubbed under the larger loads
+    cold, warm = (law.rate(op.temperature + part * flash) for part in (0.9, 3.0))  # most rubs under large loads
     grown = -np.log1p(-body.growth.max() / law.full_thickness) / (1e7 * period)
     assert cold < grown < warm
 
