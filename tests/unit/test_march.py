@@ -268,8 +268,10 @@ def test_a_cycle_counts_passes_and_warms_films_by_its_flash_and_its_outputs_are_
         assert getattr(after.outputs, name) == approx(mean, rel=1e-9), name
     assert after.outputs.flash_temperature_rise > 1.0
     flash = after.outputs.flash_temperature_rise
-    cold, warm = (law.rate(op.temperature + part * flash) for part in (0.9, 3.0))  # most rubs under large loads
+    cold, warm = (law.rate(op.temperature + part * flash) for part in (0.0, 3.0))
     grown = -np.log1p(-body.growth.max() / law.full_thickness) / (1e7 * period)
+    removed = -np.log1p(-body.removal.max() / law.removal_thickness) / (1e7 * period)
+    assert law.removal_rate * grown / removed == approx(law.rate(op.temperature + flash), rel=1e-6)
     assert cold < grown < warm
 
 
