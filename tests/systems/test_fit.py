@@ -54,6 +54,7 @@ def measured_file(path: Path, seed: int, noise: float = 4.0) -> Path:
     return path
 
 
+@pytest.mark.long
 def test_three_temperatures_fitted_at_once_predict_the_eight_of_24_held_back(scene: Scene, tmp_path: Path) -> None:
     inside, tenth = [], []
     for seed in (1, 2):

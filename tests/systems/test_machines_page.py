@@ -40,6 +40,7 @@ def test_the_duties_on_the_page_can_be_read(text):
     assert found.end > 0.0
 
 
+@pytest.mark.long
 def test_the_lines_of_python_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (code,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
