@@ -20,7 +20,9 @@ class PassedOn:
 
     def settle(self, coupled: "Coupled") -> None:
         """Set the inputs until nothing changes any more."""
-        for _ in range(_MOST_PASSES if self.connections else 0):
+        if not self.connections:
+            return
+        for _ in range(_MOST_PASSES):
             changed = set()
             for n, connection in enumerate(self.connections):
                 value = coupled.get(connection.source)
@@ -32,8 +34,7 @@ class PassedOn:
                 coupled.read(coupled.instances[name])
             if not changed:
                 return
-        if self.connections:
-            raise CouplingError(
-                f"Discrete values change again and again at {coupled.time:g} s: "
-                f"{', '.join(sorted(connection.source.name for connection in self.connections))}. Break their loop."
-            )
+        raise CouplingError(
+            f"Discrete values change again and again at {coupled.time:g} s: "
+            f"{', '.join(sorted(connection.source.name for connection in self.connections))}. Break their loop."
+        )

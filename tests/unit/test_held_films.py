@@ -46,7 +46,7 @@ def test_a_film_near_the_floor_converges_and_passes_an_independent_check(point):
 @pytest.mark.usefixtures("first_algorithms")
 def test_pockets_that_contacts_all_but_close_off_fill(monkeypatch):
     """What flows in and out is little against what flows within them: line by line their pressure would hardly move."""
-    monkeypatch.setattr(held, "_ROUNDS", 2)
+    monkeypatch.setattr(held, "_LOOKS", 2)
     found = point_contact(**LEAKING_POCKETS.arguments(NODES), tolerance=TOLERANCE, floor=FLOOR)
     assert found.converged, found.shortfall
     assert "held" in found.algorithm
@@ -56,7 +56,7 @@ def test_pockets_that_contacts_all_but_close_off_fill(monkeypatch):
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_a_rough_line_near_the_floor_converges_whatever_the_last_bits(seed, monkeypatch):
     """One node in the inlet that sinks below the floor and gains mass must not decide whether a film is found."""
-    monkeypatch.setattr(held, "_ROUNDS", 1)
+    monkeypatch.setattr(held, "_LOOKS", 1)
     given = LINE.line_arguments(NODES)
     off = np.random.Generator(np.random.Philox(seed)).standard_normal(given["heights_2"].shape)
     given["heights_2"] = given["heights_2"] * (1.0 + 1e-12 * off)

@@ -28,7 +28,7 @@ from .stopping_rule import excess
 
 Mask = NDArray[np.bool_]
 
-_ROUNDS = 16
+_LOOKS = 16  # at the undamped film, at most, without convergence before
 _DEPTH, _DAMPING, _STIFF_STEP = 2, 0.2, 0.4  # of Anderson's memory; part of a step that is taken; of stiff nodes
 _PASSES, _PART, _LARGEST_STEP = 3, 0.7, 0.1  # of the oil under contacts, in an iteration; its steps, in units of p
 _OPEN, _REST = 1.001, 1.01  # gap in floors through which oil flows at a held node, at least; at which it rests
@@ -208,14 +208,14 @@ class _Held(Iteration):
 
 
 def solve_held(half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int) -> Solution:
-    """Iterate from `start` until a steady film satisfies the stopping rule or the rounds are used up.
+    """Iterate from `start` until a steady film satisfies the stopping rule or all iterations are used up.
 
-    `iterations`: of one round. Without convergence the result is the end of a round that is nearest to it. Neither
-    asperities below the grid nor `Problem.by_flux`.
+    `iterations`: from one look at the undamped film to the next. Without convergence the result is the best of
+    these. Neither asperities below the grid nor `Problem.by_flux`.
     """
     best: Solution | None = None
     it = _Held(half_space, problem, start)
-    for n in range(1, _ROUNDS * iterations + 1):
+    for n in range(1, _LOOKS * iterations + 1):
         it.correct()
         found = it.assess(n, tolerance)
         if not np.isfinite(found.pressure_change):
