@@ -32,7 +32,7 @@ def settings(**tables: dict[str, str]) -> list[str]:
 def put_results(record: Record, folder: Path, names: tuple[str, ...] = ("result",)) -> None:
     """Keep every variable, numbers among the attributes, and the table."""
     for name in names:
-        with xr.open_dataset(folder / f"{name}.nc", engine="h5netcdf") as dataset:
+        with xr.open_dataset(folder / f"{name}.nc") as dataset:
             for variable, values in dataset.load().variables.items():
                 record.put(f"{name}.nc, {variable}", values.values)
                 _put_attributes(record, f"{name}.nc, {variable}: ", values.attrs)

@@ -69,7 +69,7 @@ def digest(folder: Path, job: str) -> str:
     if not file.exists():
         return "no result"
     total = hashlib.sha256()
-    with xr.open_dataset(file, engine="h5netcdf") as found:
+    with xr.open_dataset(file) as found:
         for name in sorted(map(str, found.variables)):
             values = np.ascontiguousarray(found[name].values)
             total.update(

@@ -45,7 +45,7 @@ def run(machine: str, level: str) -> tuple[Assembly, xr.Dataset]:
     """The run at a level: as it is kept, or simulated."""
     assembly, folder = assembled(machine, level), KEPT / machine / level
     if (folder / "result.nc").exists():
-        return assembly, xr.load_dataset(folder / "result.nc", engine="h5netcdf")
+        return assembly, xr.load_dataset(folder / "result.nc")
     folder.mkdir(parents=True, exist_ok=True)
     system = assembly.system(folder / "fmus")
     dataset = simulate(system, **{**assembly.settings, "outputs": assembly.outputs()})

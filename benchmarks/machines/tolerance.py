@@ -61,10 +61,10 @@ def simulated(name: str) -> None:
             if not path.exists():
                 KEPT.mkdir(parents=True, exist_ok=True)
                 found = simulate(system, **{**settings, "outputs": assembly.outputs()})
-                found.to_netcdf(path.with_suffix(".new"), engine="h5netcdf")
+                found.to_netcdf(path.with_suffix(".new"))
                 path.with_suffix(".new").replace(path)
                 print(name, kind, found.attrs["steps"], flush=True)
-            return xr.load_dataset(path, engine="h5netcdf")
+            return xr.load_dataset(path)
 
         run = made("run", assembly.settings)
         made("coarse", coarser(run, assembly.settings, assembly.schedule))
@@ -74,9 +74,7 @@ def simulated(name: str) -> None:
 def rows(name: str) -> tuple[str, list[str]]:
     """A line for a machine, and lines for the outputs with the largest errors and those that are not covered."""
     assembly, (end, parts) = assembled(name), MACHINES[name]
-    run, coarse, fine = (
-        xr.load_dataset(KEPT / f"{name}_{kind}.nc", engine="h5netcdf") for kind in ("run", "coarse", "fine")
-    )
+    run, coarse, fine = (xr.load_dataset(KEPT / f"{name}_{kind}.nc") for kind in ("run", "coarse", "fine"))
     times = settled(coarse, assembly.schedule)
     run = stated(run, coarse, assembly.schedule)
     found = relative(run, assembly.nominals())

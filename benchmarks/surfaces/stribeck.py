@@ -43,7 +43,7 @@ def curves_of(name: str, tribofilm: str, args: argparse.Namespace) -> xr.Dataset
     curves = Curves(Plan.of(duty, args.times, FASTEST, SLOWEST, args.points))
     asked, file = curves.dataset(scene, duty), KEPT / f"{name}-{tribofilm}.nc"
     if file.exists() and not args.again:
-        with xr.open_dataset(file, engine="h5netcdf") as stored:
+        with xr.open_dataset(file) as stored:
             same = all(stored.attrs.get(key) == asked.attrs[key] for key in ("scene_json", "duty"))
             if same and all(stored[axis].equals(asked[axis]) for axis in asked.dims):
                 return stored.load()

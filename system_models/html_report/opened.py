@@ -27,8 +27,8 @@ from ..run.causes import Causes, at_point, by_cause
 from ..run.contact import communication_points
 from ..run.duty import Duty
 from ..run.fields import Fields
+from ..store import results
 from ..store.checkpoint import Checkpoint
-from ..store.results import to_dataset
 from ..sweep.members import ATTRIBUTE as ENSEMBLE
 from ..sweep.members import FILE as MEMBERS
 
@@ -110,8 +110,7 @@ def open_run(folder: Path) -> Run:
 
 def _finished(folder: Path, result: Path) -> Run:
     try:
-        with xr.open_dataset(result, engine="h5netcdf", decode_times=False) as opened:
-            dataset = opened.load()
+        dataset = results.read(result)
     except (OSError, ValueError) as error:
         raise ContactError(f"'{result}' cannot be read: {error}. Run it again.") from None
     if "time" not in dataset.dims or not dataset.sizes["time"]:
@@ -134,8 +133,7 @@ def _with_members(run: Run) -> Run:
     """Return the run of an ensemble with the results of its members, or with a note if they are not there."""
     file = run.folder / f"{MEMBERS}.nc"
     try:
-        with xr.open_dataset(file, engine="h5netcdf", decode_times=False) as opened:
-            found = opened.load()
+        found = results.read(file)
     except (OSError, ValueError):
         note = (
             f"This is the mean of an ensemble of surfaces, but the results of its members, {file.name}, are not there."
@@ -246,7 +244,7 @@ def _rows(checkpoint: Checkpoint, prefix: str, quantities: Mapping[str, Quantity
     given = quantities or {}
     known = {name: given.get(name) or TABLE.get(shown[name].rpartition(".")[2]) for name in names}
     said = {shown[name]: (quantity.unit, quantity.text) for name, quantity in known.items() if quantity} | STATISTICS
-    return to_dataset(
+    return results.to_dataset(
         rows["time"],
         {shown[name]: rows[name] for name in names},
         {shown[name]: said.get(shown[name], ("SI", ""))[0] for name in names},

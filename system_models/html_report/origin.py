@@ -11,7 +11,7 @@ import contact_core
 from .markup import folded, heading, paragraph, section, table
 from .opened import Run
 
-_PACKAGES = ("numpy", "scipy", "numba", "xarray", "h5netcdf", "fmpy")
+_PACKAGES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "fmpy")
 
 
 def sections(run: Run) -> str:
@@ -49,7 +49,7 @@ def _again(run: Run) -> Iterator[str]:
     yield heading("The numbers themselves")
     yield paragraph(
         "result.nc has every row and every map in SI units, with a text, a unit and the half width of the error for "
-        "each variable; result.csv has the rows. In Python: xarray.open_dataset('result.nc', engine='h5netcdf')."
+        "each variable; result.csv has the rows. In Python: xarray.open_dataset('result.nc')."
     )
     if run.of_contact:
         yield paragraph(

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import h5netcdf
+import netCDF4
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
@@ -67,21 +67,26 @@ def half_width(dataset: xr.Dataset, name: str) -> np.ndarray | None:
     return (found[0] if len(found) == 1 else np.hypot(*found)) if found else None
 
 
+def read(file: Path) -> xr.Dataset:
+    """Return what is in a netCDF file. Raises OSError or ValueError if there is none or it was cut."""
+    with xr.open_dataset(file, engine="netcdf4", decode_times=False) as opened:
+        return opened.load()
+
+
 def find(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:
     """Return the result in `folder` that has these attributes, if there is one."""
     try:
-        with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as dataset:
-            same = origin.items() <= dataset.attrs.items()
-            return dataset.load() if same else None
+        dataset = read(folder / "result.nc")
     except (OSError, ValueError):  # none, or cut
         return None
+    return dataset if origin.items() <= dataset.attrs.items() else None
 
 
 def attributes_of(file: Path) -> dict[str, Any] | None:
     """Return the attributes of a result's netCDF file; None if there is none, or it was cut."""
     try:
-        with h5netcdf.File(file, "r") as opened:  # xarray would look at every variable, too
-            return dict(opened.attrs)
+        with netCDF4.Dataset(file) as opened:  # xarray would look at every variable, too
+            return dict(vars(opened))
     except (OSError, ValueError):
         return None
 
@@ -102,7 +107,7 @@ def write(
     rows = dataset if table is None else table
     unfinished = netcdf.with_suffix(".new")
     whole = dataset if maps is None else dataset.merge(maps, combine_attrs="override")
-    whole.to_netcdf(unfinished, engine="h5netcdf")
+    whole.to_netcdf(unfinished, engine="netcdf4")
     unfinished.replace(netcdf)  # a kill leaves the old file or the new one
     write_csv(rows, text)
     return [netcdf, text]

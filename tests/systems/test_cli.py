@@ -80,7 +80,7 @@ def test_a_run_prints_a_table_and_writes_three_files(
     folder = tmp_path / "results" / "mtm_zddp"
     assert {path.name for path in folder.iterdir()} == {"result.nc", "result.csv", "overview.png"}
     assert all(str(Path("results/mtm_zddp") / path.name) in out for path in folder.iterdir())
-    with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as dataset:
+    with xr.open_dataset(folder / "result.nc") as dataset:
         assert dataset["time"].values.tolist() == [0.0, 30.0, 36.0]
         assert dataset.attrs["scene"] == "mtm_zddp"
 
@@ -102,7 +102,7 @@ def test_a_duty_on_the_command_line_reaches_the_result(
     Path("loads.csv").write_text("time [s],load [N]\n0,20\n10,60\n")
     settings = [*coarse, *STILL, "--duty", "loads.csv", "--hours", "0.005"]
     assert main(["run", "mtm_zddp", *settings, "--out", "out"]) == 0
-    with xr.open_dataset("out/result.nc", engine="h5netcdf") as dataset:
+    with xr.open_dataset("out/result.nc") as dataset:
         assert dataset["load"].values.tolist() == [20.0, 20.0, 60.0]
         assert '"largest_load": "60.0 N"' in dataset.attrs["scene_json"]
 
@@ -249,7 +249,7 @@ def test_a_gear_flank_runs_to_the_end(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main(["run", "fzg_flank", "--set", *settings, "--hours", "0.01", "--out", str(tmp_path)]) == 0
     out = capsys.readouterr().out
     assert "Load cycles: 1 302 of body 1, 867 of body 2." in out
-    with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as dataset:
+    with xr.open_dataset(tmp_path / "result.nc") as dataset:
         assert not {"radius_y", "spin", "spin_torque"} & set(dataset)
         assert dataset["radius_x"].values == approx(8.729e-3)
 

@@ -71,7 +71,7 @@ def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def result(folder: str) -> xr.Dataset:
-    with xr.open_dataset(Path(folder) / "result.nc", engine="h5netcdf") as dataset:
+    with xr.open_dataset(Path(folder) / "result.nc") as dataset:
         return dataset.load()
 
 

@@ -58,7 +58,7 @@ def test_the_example_runs_as_it_is_shown(
             assert found[:2] == cells[:2]
             assert list(map(number, found[2:])) == approx(list(map(number, cells[2:])), rel=1e-2)
     assert "Steps: 2000 to 1 s" in "".join(printed)
-    with xr.open_dataset("results/rig/result.nc", engine="h5netcdf") as dataset:
+    with xr.open_dataset("results/rig/result.nc") as dataset:
         friction = dataset["contact.friction_force"].values
         assert dataset["contact.valid"].values.all()
         assert friction[-1] == approx(0.6 * friction[999], rel=0.05)  # the load falls from 50 N to 30 N

@@ -30,7 +30,7 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 
 
 def opened(file: Path) -> xr.Dataset:
-    with xr.open_dataset(file, engine="h5netcdf") as found:
+    with xr.open_dataset(file) as found:
         return found.load()
 
 

@@ -53,7 +53,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def result(folder: Path) -> xr.Dataset:
-    with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as dataset:
+    with xr.open_dataset(folder / "result.nc") as dataset:
         return dataset.load()
 
 

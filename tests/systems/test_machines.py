@@ -68,7 +68,7 @@ def test_a_machine_runs_from_one_command(rig: list[str], capsys: pytest.CaptureF
     assert not list(folder.glob("checkpoint*"))
     dataset = result(str(folder))
     assert dataset["time"].values[-1] == 9.0
-    with xr.open_dataset(folder / "resolved.nc", engine="h5netcdf") as resolved:
+    with xr.open_dataset(folder / "resolved.nc") as resolved:
         judged, covered = (resolved[f"resolved.{name}"].values.astype(bool) for name in ("solved", "valid"))
     assert (~dataset["contact.valid"].values.astype(bool)).sum() == (~covered).sum()  # false there, and only there
     assert code == int((judged & ~covered).any())

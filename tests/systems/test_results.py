@@ -37,7 +37,7 @@ def test_the_attributes_make_the_scene_again(dataset: xr.Dataset, scene: Scene, 
 def test_netcdf_gives_back_what_was_written(dataset: xr.Dataset, scene: Scene, duty: Duty, tmp_path: Path) -> None:
     described = origin.with_scene(dataset, scene, duty)
     netcdf, _ = results.write(described, tmp_path)
-    with xr.open_dataset(netcdf, engine="h5netcdf") as read:
+    with xr.open_dataset(netcdf) as read:
         xr.testing.assert_identical(read.load(), described)
 
 

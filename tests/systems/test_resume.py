@@ -176,7 +176,7 @@ def test_a_run_that_is_killed_again_and_again_writes_the_same_files(
         assert sorted(path.name for path in folder.iterdir()) == NAMES
     for name in NAMES:
         assert (whole / name).read_bytes() == (killed / name).read_bytes(), name
-    with xr.open_dataset(whole / "result.nc", engine="h5netcdf") as dataset:
+    with xr.open_dataset(whole / "result.nc") as dataset:
         assert dataset.sizes["time"] == 7
         assert dataset["tribofilm_1"].values[-1] > dataset["tribofilm_1"].values[5] > 0.0
 

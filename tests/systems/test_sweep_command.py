@@ -92,7 +92,7 @@ def test_a_sweep_is_one_dataset_and_goes_on_from_what_is_kept(
 ) -> None:
     vary = ["--vary", "operation.load=20 N:60 N:2", "tribofilm.model=none,ghanbarzadeh", "--out", str(tmp_path)]
     assert main(["sweep", "mtm_zddp", *vary, *QUICK]) == 0
-    with xr.open_dataset(tmp_path / "sweep.nc", engine="h5netcdf") as opened:
+    with xr.open_dataset(tmp_path / "sweep.nc") as opened:
         first = opened.load()
     assert first["h_c"].dims == ("operation.load", "tribofilm.model", "time")
     assert first["operation.load"].values.tolist() == [20.0, 60.0]
@@ -110,7 +110,7 @@ def test_a_sweep_is_one_dataset_and_goes_on_from_what_is_kept(
     monkeypatch.setattr(points, "run", lambda *given: ran.append(given) or original(*given))
     assert main(["sweep", "mtm_zddp", *vary, *QUICK]) == 0
     assert len(ran) == 1
-    with xr.open_dataset(tmp_path / "sweep.nc", engine="h5netcdf") as again:
+    with xr.open_dataset(tmp_path / "sweep.nc") as again:
         xr.testing.assert_identical(again.load(), first)
     assert main(["sweep", "mtm_zddp", *vary, *QUICK[:-1], "operation.duration=1 min"]) == 0
     assert len(ran) == 5  # another scene: nothing of it is kept
@@ -122,7 +122,7 @@ def test_a_refused_point_is_named_and_leaves_the_others(tmp_path: Path, capsys: 
     assert main(["sweep", "mtm_zddp", *vary, *QUICK]) == 1
     out = capsys.readouterr().out
     assert "Refused: 1 of 2 points" in out and "temperature" in out
-    with xr.open_dataset(tmp_path / "sweep.nc", engine="h5netcdf") as found:
+    with xr.open_dataset(tmp_path / "sweep.nc") as found:
         assert np.isfinite(found["h_c"].values[0]).all() and np.isnan(found["h_c"].values[1]).all()
         assert not found["valid"].values[1].any()
 
