@@ -121,7 +121,7 @@ def test_a_library_with_wrong_bits_is_read_or_refused(platform: str) -> None:
 @pytest.mark.parametrize("platform", OURS)
 def test_any_byte_of_the_headers_may_be_wrong(platform: str) -> None:
     data = OURS[platform].read_bytes()
-    places = [*range(1024), *range(len(data) - 64 * 40, len(data))]
+    places = random.Random(1).sample([*range(1024), *range(len(data) - 64 * 40, len(data))], 1000)
     kept = [survives(data[:at] + bytes([value]) + data[at + 1 :]) for at in places for value in (0, 0xFF)]
     assert {True, False} == set(kept)
 

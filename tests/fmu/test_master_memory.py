@@ -19,7 +19,7 @@ BLOCKS = 500  # small objects of Python
 @pytest.mark.parametrize(
     ("steps", "fmi", "options"),
     [
-        (8_000, 2, {}),
+        (3_000, 2, {}),
         (2_000, 3, {"iterate": "aitken", "order": 1}),
         (700, 2, {"tolerance": 1e-7, "order": 2}),
     ],
