@@ -2,6 +2,7 @@
 
 import os
 import signal
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -32,6 +33,14 @@ settings.load_profile("repeatable")
 def pytest_xdist_auto_num_workers() -> int:
     """One more than there are processors: some tests wait for processes and for limits of time."""
     return (os.cpu_count() or 1) + 1
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Compile the usual kernels once, while xdist's workers collect, instead of in each of them."""
+    if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
+        warm = "import contact_core as c; c.warm_up(c.Scene.from_toml('mtm_zddp'))"
+        process = subprocess.Popen([sys.executable, "-P", "-c", warm])
+        config.add_cleanup(process.wait)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

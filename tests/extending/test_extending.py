@@ -154,6 +154,7 @@ print(json.dumps(found))
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
+@pytest.mark.long
 def test_the_law_is_in_the_c_of_a_native_fmu(tree: Tree) -> None:
     found = found_by(
         tree,
@@ -194,7 +195,8 @@ def test_the_law_obeys_what_every_law_of_its_slot_must(tree: Tree) -> None:
     """All random examples of the battery are of the law of the page."""
     printed = tree.python(
         f"""
-import sys
+import os, sys
+os.environ["TRIBOFMU_TEST_EXAMPLES"] = "5"
 import pytest
 from contact_core.laws import SLOTS
 from contact_core.laws.tribofilm import Quinn
