@@ -1,5 +1,6 @@
 """What all tests share: markers, of which `long` waits for .ci/full; random inputs repeat in every run."""
 
+import gc
 import os
 import signal
 import subprocess
@@ -21,6 +22,8 @@ from hypothesis import HealthCheck, settings
 
 # a background job of a shell inherits that Ctrl-C is ignored; tests of interrupts raise it themselves
 signal.signal(signal.SIGINT, signal.default_int_handler)
+
+gc.disable()  # while tests are collected, which makes objects that all stay and nothing else
 
 UNTIMED = [HealthCheck.too_slow]  # which a busy machine fails
 EXAMPLES = int(os.environ.get("TRIBOFMU_TEST_EXAMPLES", "25"))  # of each property: more in .ci/full
@@ -49,6 +52,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if item.get_closest_marker("long"):
             item.add_marker(later)
         item.add_marker(item.path.relative_to(Path(__file__).parent).parts[0])
+
+
+def pytest_collection_finish() -> None:
+    gc.freeze()
+    gc.enable()
 
 
 @pytest.fixture(scope="session")
