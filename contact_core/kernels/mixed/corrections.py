@@ -155,6 +155,20 @@ def correct_gap(  # type: ignore[no-untyped-def]
 
 
 @jit
+def lifts_of(near, wedge, dx):  # type: ignore[no-untyped-def]
+    """Return d(deformation wedge)_i / dp_(i + m), m = -3 ... 2."""
+    k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
+    return (
+        wedge * ((1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx),
+        wedge * ((1.5 * k2 - 2.0 * k1 + 0.5 * k0) / dx),
+        wedge * ((1.5 * k1 - 2.0 * k0 + 0.5 * k1) / dx),
+        wedge * ((1.5 * k0 - 2.0 * k1 + 0.5 * k2) / dx),
+        wedge * ((1.5 * k1 - 2.0 * k2 + 0.5 * k3) / dx),
+        wedge * ((1.5 * k2 - 2.0 * k3 + 0.5 * k4) / dx),
+    )
+
+
+@jit
 def relax_lines(  # type: ignore[no-untyped-def]
     p,
     f,
@@ -189,14 +203,8 @@ def relax_lines(  # type: ignore[no-untyped-def]
     """
     ny, nx = p.shape
     per_dx2 = 1.0 / (dx * dx)
-    k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
-    # d(deformation wedge)_i / dp_(i + m)
-    w_3 = wedge * ((1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx)
-    w_2 = wedge * ((1.5 * k2 - 2.0 * k1 + 0.5 * k0) / dx)
-    w_1 = wedge * ((1.5 * k1 - 2.0 * k0 + 0.5 * k1) / dx)
-    w0 = wedge * ((1.5 * k0 - 2.0 * k1 + 0.5 * k2) / dx) + per_dt * patch_wide
-    w1 = wedge * ((1.5 * k1 - 2.0 * k2 + 0.5 * k3) / dx)
-    w2 = wedge * ((1.5 * k2 - 2.0 * k3 + 0.5 * k4) / dx)
+    w_3, w_2, w_1, w0, w1, w2 = lifts_of(near, wedge, dx)
+    w0 += per_dt * patch_wide
     ratio, known, free = np.zeros(nx), np.zeros(nx), np.zeros(nx, np.bool_)
     alone = wrapped and ny == 3  # a row that is its own neighbour
     over = 1.0 if alone else _OVER

@@ -8,16 +8,8 @@ let through is little against that. Line by line this number hardly moves. It fo
 import numpy as np
 
 from ..compiled import jit
+from .corrections import lifts_of
 from .edge import wrap
-
-
-@jit
-def _lifts(near, wedge, dx):  # type: ignore[no-untyped-def]
-    """Return d(deformation wedge)_i / dp_(i + m), m = -3 ... 2."""
-    at, out = (3, 2, 1, 0, 1, 2, 3, 4), np.empty(6)  # distances of a node from i, and next to it from i - 1 and i - 2
-    for m in range(6):
-        out[m] = wedge * (1.5 * near[0, at[m]] - 2.0 * near[0, at[m + 1]] + 0.5 * near[0, at[m + 2]]) / dx
-    return out
 
 
 @jit
@@ -29,7 +21,7 @@ def fill_pockets(  # type: ignore[no-untyped-def]
     A pocket: nodes off the stiff zone, joined by faces of at least the mobility `least`.
     """
     ny, nx = p.shape
-    per_dx2, lifts = 1.0 / (dx * dx), _lifts(near, wedge, dx)
+    per_dx2, lifts = 1.0 / (dx * dx), lifts_of(near, wedge, dx)
     pocket = np.full((ny, nx), -1)  # its number; 0: of none yet, -1: no free node
     for j in range(1, ny - 1):
         for i in range(1, nx - 1):
