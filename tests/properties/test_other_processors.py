@@ -9,6 +9,7 @@ import llvmlite.binding
 import pytest
 
 KERNELS = {"Prescott": "sse3", "Haswell": "avx2", "SkylakeX": "avx512f"}  # of OpenBLAS; what a processor needs for them
+SAME = {"Prescott": "Katmai"}  # the name under which OpenBLAS reports these kernels
 SCRIPT = """
 import ctypes, json
 from pathlib import Path
@@ -65,6 +66,12 @@ def test_other_kernels_of_blas_give_the_same_within_part_of_the_error(kernels, o
     if other["kernels"] == own["kernels"]:
         pytest.skip(f"these are its own kernels: {', '.join(own['kernels']) or 'no OpenBLAS was found'}")
     agree(own, other)
+
+
+@pytest.mark.skipif("OPENBLAS_CORETYPE" not in os.environ, reason="OPENBLAS_CORETYPE is not set")
+def test_the_kernels_that_the_environment_names_are_in_use(own):
+    asked = os.environ["OPENBLAS_CORETYPE"]
+    assert set(own["kernels"]) <= {asked, SAME.get(asked)}
 
 
 @pytest.mark.long
