@@ -4,10 +4,9 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-import xarray as xr
-
 from ..machines import report as machine_report
 from ..machines import trust
+from ..store import netcdf
 from .markup import bullets, heading, paragraph, picture, printed, section, table
 from .opened import Run
 from .shown import stated
@@ -56,8 +55,7 @@ def _resolved(folder: Path) -> Iterator[str]:
     file = folder / _RESOLVED
     if not file.exists():
         return
-    with xr.open_dataset(file, engine="h5netcdf") as states:
-        found = states.load()
+    found = netcdf.load(file)
     yield heading("States solved again, node by node")
     yield paragraph(
         "A few states of the run were solved once more at the deterministic level. An error is honest if the deviation "

@@ -27,6 +27,7 @@ from ..run.causes import Causes, at_point, by_cause
 from ..run.contact import communication_points
 from ..run.duty import Duty
 from ..run.fields import Fields
+from ..store import netcdf
 from ..store.checkpoint import Checkpoint
 from ..store.results import to_dataset
 from ..sweep.members import ATTRIBUTE as ENSEMBLE
@@ -110,8 +111,7 @@ def open_run(folder: Path) -> Run:
 
 def _finished(folder: Path, result: Path) -> Run:
     try:
-        with xr.open_dataset(result, engine="h5netcdf", decode_times=False) as opened:
-            dataset = opened.load()
+        dataset = netcdf.load(result)
     except (OSError, ValueError) as error:
         raise ContactError(f"'{result}' cannot be read: {error}. Run it again.") from None
     if "time" not in dataset.dims or not dataset.sizes["time"]:
@@ -134,8 +134,7 @@ def _with_members(run: Run) -> Run:
     """Return the run of an ensemble with the results of its members, or with a note if they are not there."""
     file = run.folder / f"{MEMBERS}.nc"
     try:
-        with xr.open_dataset(file, engine="h5netcdf", decode_times=False) as opened:
-            found = opened.load()
+        found = netcdf.load(file)
     except (OSError, ValueError):
         note = (
             f"This is the mean of an ensemble of surfaces, but the results of its members, {file.name}, are not there."

@@ -5,12 +5,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import h5netcdf
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
 from contact_core.quantities import ABSOLUTE, STATED
+
+from . import netcdf
 
 ERROR = "_error"  # after the name of an output: the half width of its error
 BAND = "_band"  # after the name of an output of an ensemble: the half width of its mean by the scatter of the members
@@ -70,18 +71,16 @@ def half_width(dataset: xr.Dataset, name: str) -> np.ndarray | None:
 def find(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:
     """Return the result in `folder` that has these attributes, if there is one."""
     try:
-        with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as dataset:
-            same = origin.items() <= dataset.attrs.items()
-            return dataset.load() if same else None
+        dataset = netcdf.load(folder / "result.nc")
     except (OSError, ValueError):  # none, or cut
         return None
+    return dataset if origin.items() <= dataset.attrs.items() else None
 
 
 def attributes_of(file: Path) -> dict[str, Any] | None:
     """Return the attributes of a result's netCDF file; None if there is none, or it was cut."""
     try:
-        with h5netcdf.File(file, "r") as opened:  # xarray would look at every variable, too
-            return dict(opened.attrs)
+        return netcdf.attributes(file)
     except (OSError, ValueError):
         return None
 
@@ -98,14 +97,14 @@ def write(
     The CSV has a row for each point of the dataset's dimensions; variables constant along one of them are repeated.
     `maps` go into the netCDF only; `table` replaces the dataset in the CSV.
     """
-    netcdf, text = folder / f"{name}.nc", folder / f"{name}.csv"
+    binary, text = folder / f"{name}.nc", folder / f"{name}.csv"
     rows = dataset if table is None else table
-    unfinished = netcdf.with_suffix(".new")
+    unfinished = binary.with_suffix(".new")
     whole = dataset if maps is None else dataset.merge(maps, combine_attrs="override")
-    whole.to_netcdf(unfinished, engine="h5netcdf")
-    unfinished.replace(netcdf)  # a kill leaves the old file or the new one
+    netcdf.save(whole, unfinished)
+    unfinished.replace(binary)  # a kill leaves the old file or the new one
     write_csv(rows, text)
-    return [netcdf, text]
+    return [binary, text]
 
 
 def write_csv(rows: xr.Dataset, path: Path) -> Path:

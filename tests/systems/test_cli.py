@@ -5,13 +5,13 @@ from importlib import resources
 from pathlib import Path
 
 import pytest
-import xarray as xr
 from comparison import HARD, approx
 
 from contact_core import OperatingPoint, Scene, shipped_scenes
 from system_models.cli.main import COMMANDS, main
 from system_models.machines.files import shipped
 from system_models.run.duty import Duty
+from system_models.store import netcdf
 
 STILL = [  # nothing grows or wears: one solution serves for ever
     part for setting in ("tribofilm.model=none", "wear.model=none", "heat.model=none") for part in ("--set", setting)
@@ -80,9 +80,9 @@ def test_a_run_prints_a_table_and_writes_three_files(
     folder = tmp_path / "results" / "mtm_zddp"
     assert {path.name for path in folder.iterdir()} == {"result.nc", "result.csv", "overview.png"}
     assert all(str(Path("results/mtm_zddp") / path.name) in out for path in folder.iterdir())
-    with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as dataset:
-        assert dataset["time"].values.tolist() == [0.0, 30.0, 36.0]
-        assert dataset.attrs["scene"] == "mtm_zddp"
+    dataset = netcdf.load(folder / "result.nc")
+    assert dataset["time"].values.tolist() == [0.0, 30.0, 36.0]
+    assert dataset.attrs["scene"] == "mtm_zddp"
 
 
 def test_a_run_of_the_regression_level_says_what_it_knows(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
@@ -102,9 +102,9 @@ def test_a_duty_on_the_command_line_reaches_the_result(
     Path("loads.csv").write_text("time [s],load [N]\n0,20\n10,60\n")
     settings = [*coarse, *STILL, "--duty", "loads.csv", "--hours", "0.005"]
     assert main(["run", "mtm_zddp", *settings, "--out", "out"]) == 0
-    with xr.open_dataset("out/result.nc", engine="h5netcdf") as dataset:
-        assert dataset["load"].values.tolist() == [20.0, 20.0, 60.0]
-        assert '"largest_load": "60.0 N"' in dataset.attrs["scene_json"]
+    dataset = netcdf.load(Path("out/result.nc"))
+    assert dataset["load"].values.tolist() == [20.0, 20.0, 60.0]
+    assert '"largest_load": "60.0 N"' in dataset.attrs["scene_json"]
 
 
 def test_a_duty_in_a_scenes_file_is_looked_for_beside_it(
@@ -249,9 +249,9 @@ def test_a_gear_flank_runs_to_the_end(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main(["run", "fzg_flank", "--set", *settings, "--hours", "0.01", "--out", str(tmp_path)]) == 0
     out = capsys.readouterr().out
     assert "Load cycles: 1 302 of body 1, 867 of body 2." in out
-    with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as dataset:
-        assert not {"radius_y", "spin", "spin_torque"} & set(dataset)
-        assert dataset["radius_x"].values == approx(8.729e-3)
+    dataset = netcdf.load(tmp_path / "result.nc")
+    assert not {"radius_y", "spin", "spin_torque"} & set(dataset)
+    assert dataset["radius_x"].values == approx(8.729e-3)
 
 
 def test_the_stribeck_curves_of_a_line_are_swept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

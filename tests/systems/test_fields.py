@@ -25,7 +25,7 @@ from system_models.run import maps, origin, report, track_picture
 from system_models.run.contact import communication_points, run
 from system_models.run.duty import Duty
 from system_models.run.fields import Fields
-from system_models.store import results
+from system_models.store import netcdf, results
 from system_models.store.checkpoint import Checkpoint
 
 PAGE = (Path(__file__).parents[2] / "docs" / "how-to" / "fields.md").read_text("utf-8")
@@ -106,9 +106,9 @@ def test_the_file_gives_back_every_map_compressed_and_the_table_stays(
     found: xr.Dataset, plain: xr.Dataset, scene: Scene, changing: Duty, tmp_path: Path
 ) -> None:
     described = origin.with_scene(plain, scene, changing, 7)
-    netcdf, table = results.write(described, tmp_path, maps=found)
+    binary, table = results.write(described, tmp_path, maps=found)
     assert results.write_csv(described, tmp_path / "alone.csv").read_bytes() == table.read_bytes()
-    with xr.open_dataset(netcdf, engine="h5netcdf") as read:
+    with xr.open_dataset(binary, engine="h5netcdf") as read:
         xr.testing.assert_identical(read[list(found.data_vars)].drop_attrs(deep=False).load(), found)
         assert read.attrs["fields"] == 7
         xr.testing.assert_identical(read[list(plain.data_vars)].drop_attrs(), plain.drop_attrs())
@@ -230,10 +230,10 @@ def test_a_run_with_fields_that_is_killed_again_and_again_writes_the_same_files(
     for folder in (whole, killed):
         assert sorted(path.name for path in folder.iterdir()) == names
     assert all((whole / name).read_bytes() == (killed / name).read_bytes() for name in names)
-    with xr.open_dataset(whole / "result.nc", engine="h5netcdf") as read:
-        assert read["field_time"].values.tolist() == [0.0, 24.0, 48.0, 72.0]
-        assert set(read["field_time"].values) <= set(read["time"].values)
-        assert (read["tribofilm_map_1"].max(("y", "x_track")).diff("field_time") > 0.0).all()
+    read = netcdf.load(whole / "result.nc")
+    assert read["field_time"].values.tolist() == [0.0, 24.0, 48.0, 72.0]
+    assert set(read["field_time"].values) <= set(read["time"].values)
+    assert (read["tribofilm_map_1"].max(("y", "x_track")).diff("field_time") > 0.0).all()
 
 
 def test_other_fields_are_another_run_and_a_result_without_them_is_not_finished(
@@ -248,8 +248,8 @@ def test_other_fields_are_another_run_and_a_result_without_them_is_not_finished(
     for same in ([*command, "--fields", "1"], command):
         assert main(same) == 0
         assert "This run is finished" in capsys.readouterr().err
-    with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as read:
-        assert read["field_time"].values.tolist() == [18.0]
+    read = netcdf.load(tmp_path / "result.nc")
+    assert read["field_time"].values.tolist() == [18.0]
 
 
 @pytest.mark.parametrize(
@@ -389,6 +389,6 @@ def test_without_fields_nothing_of_them_is_written(
     caplog.set_level(logging.WARNING)
     assert main(["run", "mtm_zddp", *coarse, "--hours", "0.005", "--out", str(tmp_path)]) == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == ["result.csv", "result.nc"]
-    with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as read:
-        assert read.sizes == {"time": 2}
-        assert "fields" not in read.attrs
+    read = netcdf.load(tmp_path / "result.nc")
+    assert read.sizes == {"time": 2}
+    assert "fields" not in read.attrs

@@ -25,6 +25,7 @@ from system_models.machines.export import with_timetable
 from system_models.machines.files import shipped
 from system_models.master import System, export_ssp, simulate
 from system_models.parts.load_arm import LoadArm
+from system_models.store import netcdf
 
 SHORT = """time [s],entrainment_speed [m/s],slide_roll_ratio [1]
 0,1,0.5
@@ -68,8 +69,8 @@ def test_a_machine_runs_from_one_command(rig: list[str], capsys: pytest.CaptureF
     assert not list(folder.glob("checkpoint*"))
     dataset = result(str(folder))
     assert dataset["time"].values[-1] == 9.0
-    with xr.open_dataset(folder / "resolved.nc", engine="h5netcdf") as resolved:
-        judged, covered = (resolved[f"resolved.{name}"].values.astype(bool) for name in ("solved", "valid"))
+    resolved = netcdf.load(folder / "resolved.nc")
+    judged, covered = (resolved[f"resolved.{name}"].values.astype(bool) for name in ("solved", "valid"))
     assert (~dataset["contact.valid"].values.astype(bool)).sum() == (~covered).sum()  # false there, and only there
     assert code == int((judged & ~covered).any())
     again = reading.assemble(reading.from_attribute(dataset.attrs[reading.ATTRIBUTE]))

@@ -10,7 +10,7 @@ from contact_core import Scene
 from contact_core.quantities import TABLE
 from system_models.run import origin
 from system_models.run.duty import Duty
-from system_models.store import results
+from system_models.store import netcdf, results
 
 
 def test_variables_have_the_names_units_and_texts_of_the_quantity_table(dataset: xr.Dataset) -> None:
@@ -36,9 +36,33 @@ def test_the_attributes_make_the_scene_again(dataset: xr.Dataset, scene: Scene, 
 
 def test_netcdf_gives_back_what_was_written(dataset: xr.Dataset, scene: Scene, duty: Duty, tmp_path: Path) -> None:
     described = origin.with_scene(dataset, scene, duty)
-    netcdf, _ = results.write(described, tmp_path)
-    with xr.open_dataset(netcdf, engine="h5netcdf") as read:
+    binary, _ = results.write(described, tmp_path)
+    with xr.open_dataset(binary, engine="h5netcdf") as read:
         xr.testing.assert_identical(read.load(), described)
+    xr.testing.assert_identical(netcdf.load(binary), described)
+
+
+def test_netcdf_of_any_kind_is_that_of_xarray(tmp_path: Path) -> None:
+    """Maps and texts, truths and whole numbers, dimensions with and without a variable."""
+    values = {
+        "map": (("time", "y"), np.array([[1.0, np.nan], [3.0, 4.0]], "f4"), {"units": "m", "levels": np.arange(3.0)}),
+        "name": ("member", ["ä.npy", "b"]),
+        "valid": ("member", [True, False]),
+        "count": ("time", [3, -4]),
+        "alone": 2.5,
+    }
+    coordinates = {"time": [0.0, 1.0], "member": ["one", "another"], "half": ("time", [0.1, 0.2])}
+    dataset = xr.Dataset(values, coordinates, {"title": "µm", "fields": 7, "end": 1.5})
+    dataset["map"].encoding = {"zlib": True, "shuffle": True, "chunksizes": (1, 2)}
+    ours, theirs = tmp_path / "ours.nc", tmp_path / "theirs.nc"
+    netcdf.save(dataset, ours)
+    dataset.to_netcdf(theirs, engine="h5netcdf")
+    with xr.open_dataset(ours, engine="h5netcdf") as read, xr.open_dataset(theirs, engine="h5netcdf") as known:
+        for found in (read.load(), netcdf.load(ours), netcdf.load(theirs)):
+            xr.testing.assert_identical(found, dataset)
+            assert all(found[name].dtype == known[name].dtype for name in known.variables)
+        kept = ("zlib", "shuffle", "chunksizes", "dtype")
+        assert all(read["map"].encoding[key] == known["map"].encoding[key] for key in kept)
 
 
 def test_csv_names_units_and_keeps_every_digit(dataset: xr.Dataset, tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from comparison import approx
 
 from contact_core.errors import ContactError
 from system_models.cli.main import main
+from system_models.store import netcdf
 from system_models.sweep import points
 from system_models.sweep.ensemble import averaged, patches_of
 from system_models.sweep.plan import Plan, plan_of
@@ -92,8 +93,7 @@ def test_a_sweep_is_one_dataset_and_goes_on_from_what_is_kept(
 ) -> None:
     vary = ["--vary", "operation.load=20 N:60 N:2", "tribofilm.model=none,ghanbarzadeh", "--out", str(tmp_path)]
     assert main(["sweep", "mtm_zddp", *vary, *QUICK]) == 0
-    with xr.open_dataset(tmp_path / "sweep.nc", engine="h5netcdf") as opened:
-        first = opened.load()
+    first = netcdf.load(tmp_path / "sweep.nc")
     assert first["h_c"].dims == ("operation.load", "tribofilm.model", "time")
     assert first["operation.load"].values.tolist() == [20.0, 60.0]
     assert (first["tribofilm_1"].sel({"tribofilm.model": "none"}) == 0.0).all()
@@ -110,8 +110,7 @@ def test_a_sweep_is_one_dataset_and_goes_on_from_what_is_kept(
     monkeypatch.setattr(points, "run", lambda *given: ran.append(given) or original(*given))
     assert main(["sweep", "mtm_zddp", *vary, *QUICK]) == 0
     assert len(ran) == 1
-    with xr.open_dataset(tmp_path / "sweep.nc", engine="h5netcdf") as again:
-        xr.testing.assert_identical(again.load(), first)
+    xr.testing.assert_identical(netcdf.load(tmp_path / "sweep.nc"), first)
     assert main(["sweep", "mtm_zddp", *vary, *QUICK[:-1], "operation.duration=1 min"]) == 0
     assert len(ran) == 5  # another scene: nothing of it is kept
     capsys.readouterr()
@@ -122,9 +121,9 @@ def test_a_refused_point_is_named_and_leaves_the_others(tmp_path: Path, capsys: 
     assert main(["sweep", "mtm_zddp", *vary, *QUICK]) == 1
     out = capsys.readouterr().out
     assert "Refused: 1 of 2 points" in out and "temperature" in out
-    with xr.open_dataset(tmp_path / "sweep.nc", engine="h5netcdf") as found:
-        assert np.isfinite(found["h_c"].values[0]).all() and np.isnan(found["h_c"].values[1]).all()
-        assert not found["valid"].values[1].any()
+    found = netcdf.load(tmp_path / "sweep.nc")
+    assert np.isfinite(found["h_c"].values[0]).all() and np.isnan(found["h_c"].values[1]).all()
+    assert not found["valid"].values[1].any()
 
 
 def test_a_run_that_knows_nothing_of_an_output_is_not_called_valid(
