@@ -236,7 +236,7 @@ def test_what_a_scene_resolves_badly_is_warned_about_and_invalid_steps_give_code
         return Duty((0.0, 10.0), (scene.operation.point, impossible))
 
     monkeypatch.setattr(Duty, "of_scene", of_scene)
-    settings = [*coarse, *STILL, "--set", "surface_1.correlation_length=20 um", "--hours", "0.005"]
+    settings = [*coarse, *STILL, "--set", "surface_1.correlation_length=40 um", "--hours", "0.005"]
     assert main(["run", "mtm_zddp", *settings, "--out", str(tmp_path)]) == 1
     out, err = capsys.readouterr()
     assert "warning: surface_1 has 1.28 nodes per correlation length" in err
