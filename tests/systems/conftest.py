@@ -51,6 +51,15 @@ def rendered(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Figure, "savefig", RENDERING)
 
 
+@pytest.fixture(params=["drawn", pytest.param("rendered", marks=pytest.mark.long)])
+def drawn(request: pytest.FixtureRequest) -> bool:
+    """True if pictures are rendered, too."""
+    rendering = request.param == "rendered"
+    if rendering:
+        request.getfixturevalue("rendered")
+    return rendering
+
+
 @pytest.fixture(scope="session")
 def scene() -> Scene:
     return Scene.from_toml("mtm_zddp", COARSE)

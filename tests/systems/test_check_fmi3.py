@@ -31,10 +31,10 @@ def test_an_fmu_that_minds_its_host_gets_no_note(tmp_path: Path) -> None:
 @pytest.mark.usefixtures("unoptimised")
 @pytest.mark.parametrize("flavour", ["native", "isolated"])
 def test_our_own_fmu_fails_no_rule(
-    scene: Scene, tmp_path: Path, flavour: Flavour, monkeypatch: pytest.MonkeyPatch
+    fine: Scene, tmp_path: Path, flavour: Flavour, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
-    fmu = build(scene.at_level("regression"), tmp_path / "contact.fmu", flavour, fmi=3, reference=True)
+    fmu = build(fine.at_level("regression"), tmp_path / "contact.fmu", flavour, fmi=3, reference=True)
     assert verdicts(static_findings(fmu), Verdict.FAIL) == set()
     found = answers(fmu)
     assert verdicts(found, Verdict.FAIL) == set()

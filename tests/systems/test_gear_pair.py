@@ -128,14 +128,13 @@ def test_pressures_at_the_pitch_point_are_those_of_the_load_stages(record: Recor
     assert found == approx([1108.0, 1474.0], rel=1e-3)
 
 
-@pytest.mark.usefixtures("rendered")
-def test_the_report_has_a_row_for_each_stage_and_four_pictures(record: Record, tmp_path: Path) -> None:
+def test_the_report_has_a_row_for_each_stage_and_four_pictures(record: Record, tmp_path: Path, drawn: bool) -> None:
     lines = gear_pair_report.lines(record.assembly, record.dataset)
     table = lines[2 : lines.index("")]
     assert [line.split()[0] for line in table] == ["1", "2"]
     written = gear_pair_report.write(record.assembly, record.dataset, tmp_path)
     assert [path.name for path in written] == ["overview.png", "path.png", "time.png", "safety.png"]
-    assert all(path.stat().st_size > 20_000 for path in written)
+    assert all(path.stat().st_size > (20_000 if drawn else 0) for path in written)
 
 
 def test_the_run_and_the_standard_have_safety_factors_of_their_own(record: Record) -> None:

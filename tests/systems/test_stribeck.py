@@ -284,7 +284,7 @@ def test_points_that_are_not_converged_are_hollow(swept: xr.Dataset) -> None:
     assert axis.get_legend().get_texts()[-1].get_text() == "not converged"
 
 
-@pytest.mark.usefixtures("rendered")
+@pytest.mark.usefixtures("drawn")
 def test_the_command_prints_a_table_and_writes_three_files(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
 ) -> None:
