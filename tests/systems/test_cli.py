@@ -244,7 +244,7 @@ def test_what_a_scene_resolves_badly_is_warned_about_and_invalid_steps_give_code
 
 
 def test_a_gear_flank_runs_to_the_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    settings = ["film.points=33", "film.width=0.2 mm", "surface_1.correlation_length=50 um"]
+    settings = ["film.points=17", "film.width=0.2 mm", "surface_1.correlation_length=50 um"]
     settings += ["surface_2.correlation_length=50 um", "tribofilm.model=none", "wear.model=none"]
     assert main(["run", "fzg_flank", "--set", *settings, "--hours", "0.01", "--out", str(tmp_path)]) == 0
     out = capsys.readouterr().out

@@ -97,6 +97,7 @@ def test_a_contact_of_fmi_3_runs_to_the_same_rows(
         assert found[name].identical(dataset[name]), name
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("unoptimised")
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_a_native_contact_runs_as_the_core_does(fine: Scene, duty: Duty, tmp_path: Path, fmi: Version) -> None:

@@ -374,7 +374,7 @@ def test_the_picture_shows_pads_tracks_profiles_and_coverage(
     assert path.stat().st_size > (100_000 if drawn else 0)
 
 
-@pytest.mark.parametrize("count", [1, 2, 3])
+@pytest.mark.parametrize("count", [1, *(pytest.param(count, marks=pytest.mark.long) for count in (2, 3))])
 def test_the_picture_of_few_times_has_no_empty_panel(found: xr.Dataset, plain: xr.Dataset, count: int) -> None:
     panels = shown(track_picture.picture(plain, found.isel(field_time=range(7 - count, 7))))
     assert all(axis.has_data() for title, axis in panels.items() if title)

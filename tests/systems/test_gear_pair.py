@@ -173,7 +173,7 @@ def test_the_report_says_what_is_assumed_where_the_file_has_no_rating(record: Re
 
 def test_the_report_gives_a_run_of_the_micropitting_test_its_class(tmp_path: Path) -> None:
     duty = {**CONSTANT, "torque": "28.79 N m", "duration": "40 s", "steps": [{"time": "20 s", "torque": "265 N m"}]}
-    assembly = assembled(duty)
+    assembly = assembled(duty, stations=4)
     said = "\n".join(gear_pair_report.lines(assembly, run(assembly, tmp_path)))
     assert "Class of FVA 54/7 with these flanks: high by the standard" in said  # Ra of 0.32 um, not 0.5
 

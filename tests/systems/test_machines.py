@@ -212,7 +212,7 @@ COMPARED = {
 @pytest.fixture(
     scope="module",
     params=[
-        pytest.param(("bearing_209", "isolated"), id="bearing_209-isolated"),
+        pytest.param(("bearing_209", "isolated"), id="bearing_209-isolated", marks=pytest.mark.long),
         pytest.param(("mtm_rig", "isolated"), id="mtm_rig-isolated"),
         pytest.param(("mtm_rig", "native"), id="mtm_rig-native", marks=pytest.mark.long),
     ],
@@ -239,7 +239,10 @@ def test_importers_say_what_the_master_says(importer: str, compared: Compared, m
 
 @pytest.mark.parametrize(
     ("machine", "changes"),
-    [("bearing_209", FEW["bearing_209"]), ("mtm_rig", {"deterministic": '["contact"]', **SMALL})],
+    [
+        ("bearing_209", FEW["bearing_209"]),
+        pytest.param("mtm_rig", {"deterministic": '["contact"]', **SMALL}, marks=pytest.mark.long),
+    ],
 )
 def test_exported_fmus_start_with_the_parameters_of_the_machine(
     machine: str, changes: dict[str, str], tmp_path: Path

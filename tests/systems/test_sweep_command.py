@@ -164,6 +164,7 @@ def test_sets_of_files_are_choices_and_patches_of_a_surface_have_a_mean_and_a_ba
     assert patches_of(plan_of(["surface_2.rq=1 nm,2 nm"], None, "lhs")) == ()
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for children in /proc")
 def test_an_interrupt_while_workers_start_leaves_one_sentence(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "system_models.cli.main", "sweep", "mtm_zddp", *QUICK, "--processes", "2"]
