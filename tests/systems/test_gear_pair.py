@@ -179,7 +179,7 @@ def test_the_report_gives_a_run_of_the_micropitting_test_its_class(tmp_path: Pat
 
 
 def test_starts_and_stops_wear_the_flanks_anew_each_time(tmp_path: Path) -> None:
-    duty = {**CONSTANT, "start_stop": {"signals": ["speed"], "run": "20 s", "standstill": "20 s"}, "repeat": 2}
+    duty = {**CONSTANT, "start_stop": {"signals": ["speed"], "run": "10 s", "standstill": "10 s"}, "repeat": 2}
     assembly = assembled(duty, stations=4)
     record = Record(assembly, run(assembly, tmp_path))
     assert len(record.stages) == 2
@@ -191,6 +191,7 @@ def test_starts_and_stops_wear_the_flanks_anew_each_time(tmp_path: Path) -> None
     assert len(gear_pair_pictures.time(record).axes) == 8
 
 
+@pytest.mark.long
 def test_a_duty_from_a_table_is_followed(tmp_path: Path) -> None:
     (tmp_path / "cycle.csv").write_text(
         "time [s],speed [rpm],torque [N m]\n0,1000,50\n20,2000,100\n40,1500,0\n60,1500,0\n"
