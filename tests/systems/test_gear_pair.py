@@ -178,6 +178,7 @@ def test_the_report_gives_a_run_of_the_micropitting_test_its_class(tmp_path: Pat
     assert "Class of FVA 54/7 with these flanks: high by the standard" in said  # Ra of 0.32 um, not 0.5
 
 
+@pytest.mark.long
 def test_starts_and_stops_wear_the_flanks_anew_each_time(tmp_path: Path) -> None:
     duty = {**CONSTANT, "start_stop": {"signals": ["speed"], "run": "10 s", "standstill": "10 s"}, "repeat": 2}
     assembly = assembled(duty, stations=4)
