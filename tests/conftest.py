@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -67,6 +68,19 @@ def built(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
 @pytest.fixture(scope="session", autouse=True)
 def _native_fmus_share_their_parts(built: Built) -> Iterator[None]:
     with built.sharing():
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _fmus_packed_less_densely() -> Iterator[None]:
+    """Packing is half of the time in which an FMU is built."""
+    compressor = zipfile._get_compressor  # type: ignore[attr-defined]
+
+    def fast(kind: int, level: int | None = None) -> Any:
+        return compressor(kind, 1 if level is None else level)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(zipfile, "_get_compressor", fast)
         yield
 
 

@@ -21,9 +21,9 @@ from system_models.run.contact import run
 from system_models.run.duty import Duty
 
 COARSE = {
-    "film.points": "33",
-    "surface_1.correlation_length": "16 um",
-    "surface_2.correlation_length": "16 um",
+    "film.points": "17",
+    "surface_1.correlation_length": "32 um",
+    "surface_2.correlation_length": "32 um",
     "operation.duration": "0.02 h",
     "operation.interval": "30 s",
 }
@@ -51,9 +51,25 @@ def rendered(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Figure, "savefig", RENDERING)
 
 
+@pytest.fixture(params=["drawn", pytest.param("rendered", marks=pytest.mark.long)])
+def drawn(request: pytest.FixtureRequest) -> bool:
+    """True if pictures are rendered, too."""
+    rendering = request.param == "rendered"
+    if rendering:
+        request.getfixturevalue("rendered")
+    return rendering
+
+
 @pytest.fixture(scope="session")
 def scene() -> Scene:
     return Scene.from_toml("mtm_zddp", COARSE)
+
+
+@pytest.fixture(scope="session")
+def fine() -> Scene:
+    """The same on a grid of half the spacing."""
+    finer = {"film.points": "33"} | {f"surface_{body}.correlation_length": "16 um" for body in (1, 2)}
+    return Scene.from_toml("mtm_zddp", COARSE | finer)
 
 
 @pytest.fixture(scope="session")

@@ -5,8 +5,8 @@ from html.parser import HTMLParser
 from typing import Any
 
 COARSE = [
-    *("film.points=33", "operation.interval=30s"),
-    *(f"surface_{body}.correlation_length=16um" for body in (1, 2)),
+    *("film.points=17", "operation.interval=30s"),
+    *(f"surface_{body}.correlation_length=32um" for body in (1, 2)),
 ]
 GEARS = ["run", "gear_fzg_c", "--unchecked", "--set", "mesh.stations=4", "--hours", "0.02"]
 

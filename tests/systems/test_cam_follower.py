@@ -64,7 +64,7 @@ def test_the_energy_is_closed(record: Record) -> None:
     assert abs(left) < 0.03 * found["friction"]
 
 
-@pytest.mark.usefixtures("rendered")
+@pytest.mark.usefixtures("drawn")
 def test_the_report_has_a_row_for_each_station_and_pictures(record: Record, tmp_path: Any) -> None:
     lines = report.lines(record.assembly, record.dataset)
     assert sum(line.split()[:1] == ["base"] for line in lines) == 1

@@ -6,6 +6,7 @@ import sys
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from built import Built
@@ -19,8 +20,14 @@ from system_models.check.instance import Instance
 from system_models.check.verdict import Verdict
 
 
-def test_a_good_fmu_fails_no_rule_in_processes_of_its_own(slave: Callable[..., Path]) -> None:
-    found = deep_findings(slave("good"))
+def partly(fmu: Path) -> dict[str, Any]:
+    """Ask in this process, and in others what might crash."""
+    return answers(fmu) | deep_findings(fmu, "resources", "text")
+
+
+@pytest.mark.parametrize("asked", [partly, pytest.param(deep_findings, marks=pytest.mark.long)])
+def test_a_good_fmu_fails_no_rule(slave: Callable[..., Path], asked: Callable[[Path], dict[str, Any]]) -> None:
+    found = asked(slave("good"))
     assert verdicts(found, Verdict.FAIL) == set()
     assert verdicts(found, Verdict.NOT_APPLICABLE) == {"derivatives", "reference results", "text"}
     assert verdicts(found, Verdict.NOTE) - {"memory"} == LAX | {"unusable input"}
@@ -198,7 +205,7 @@ def test_other_processes_are_asked(slave: Callable[..., Path]) -> None:
     assert verdicts(found, Verdict.FAIL) == {"replay"}
 
 
-@pytest.mark.parametrize("flavour", ["embedded", "isolated"])
+@pytest.mark.parametrize("flavour", [pytest.param("embedded", marks=pytest.mark.long), "isolated"])
 def test_our_own_fmu_is_restored_in_another_process(
     flavour: Flavour, scene: Scene, built: Built, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -20,6 +20,7 @@ _INDENTED = re.compile(r"^ {4}(tribofmu .*)$", re.MULTILINE)
 _WITHIN = re.compile(r"`(tribofmu [^`]*)`")
 _OPEN = re.compile(r"\b(?:SYSTEM|FILE|SCENE|NAME|MACHINE|DIR|DATA)\b|\.\.\.|HOST:PORT|A B")  # stands for something
 _OF_PAGE = re.compile(r"\.(?:toml|npy|csv|json)\b|^quinn_80c$")  # files and sets that a page makes
+PARSER = _parser()
 SHIPPED = {*shipped_scenes(), *shipped()}
 
 
@@ -37,7 +38,7 @@ CASES = [pytest.param(line, id=f"{page.stem}: {line[9:60]}") for page in PAGES f
 
 @pytest.mark.parametrize("line", CASES)
 def test_a_command_of_a_page_is_one_of_todays(line: str) -> None:
-    arguments = _parser().parse_args(shlex.split(line, comments=True)[1:], argparse.Namespace())
+    arguments = PARSER.parse_args(shlex.split(line, comments=True)[1:], argparse.Namespace())
     name, changes = getattr(arguments, "scene", ""), dict(getattr(arguments, "settings", None) or [])
     if any(_OF_PAGE.search(value) for value in changes.values()):
         changes = {}  # keys may go together

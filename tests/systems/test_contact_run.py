@@ -97,13 +97,14 @@ def test_a_contact_of_fmi_3_runs_to_the_same_rows(
         assert found[name].identical(dataset[name]), name
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("unoptimised")
 @pytest.mark.parametrize("fmi", [2, 3])
-def test_a_native_contact_runs_as_the_core_does(scene: Scene, duty: Duty, tmp_path: Path, fmi: Version) -> None:
+def test_a_native_contact_runs_as_the_core_does(fine: Scene, duty: Duty, tmp_path: Path, fmi: Version) -> None:
     """Its rounding is its own, which differences of the film's formulas magnify in the derivatives."""
-    quick = scene.at_level("regression")
+    quick = fine.at_level("regression")
     fmus = build(quick, tmp_path / "native.fmu", "native", fmi=fmi), build(quick, tmp_path / "python.fmu", "embedded")
-    found, expected = (run(fmu, duty, scene.operation.duration, scene.operation.interval) for fmu in fmus)
+    found, expected = (run(fmu, duty, quick.operation.duration, quick.operation.interval) for fmu in fmus)
     for name in set(expected) - OF_CALLER:
         assert found[name].values == approx(
             expected[name].values, rel=1e-6 if name.startswith("dfriction") else 1e-11

@@ -20,6 +20,7 @@ from system_models.cli.main import main
 from system_models.master import CouplingError, System, saving, simulate
 from system_models.master.stepping import Stepper
 from system_models.run import cosim_report
+from system_models.store import results
 from system_models.store.checkpoint import Checkpoint
 
 CAR = """
@@ -71,8 +72,7 @@ def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def result(folder: str) -> xr.Dataset:
-    with xr.open_dataset(Path(folder) / "result.nc") as dataset:
-        return dataset.load()
+    return results.read(Path(folder) / "result.nc")
 
 
 @pytest.mark.usefixtures("rendered")

@@ -20,6 +20,7 @@ from contact_core.scene.ensemble import Members
 from system_models.cli.main import main
 from system_models.html_report.opened import open_run
 from system_models.html_report.page import page
+from system_models.store import results
 from system_models.sweep import members, points
 
 PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "surfaces.md"
@@ -30,8 +31,7 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 
 
 def opened(file: Path) -> xr.Dataset:
-    with xr.open_dataset(file) as found:
-        return found.load()
+    return results.read(file)
 
 
 class Ran(NamedTuple):

@@ -26,11 +26,12 @@ def test_the_page_has_every_law_level_and_shape():
     assert sorted(headings) == sorted([*known, "gaussian", "self_affine", "exponential"])
 
 
-def test_all_mathematics_of_the_page_can_be_set():
+@pytest.mark.parametrize("every", [5, pytest.param(1, marks=pytest.mark.long)])
+def test_all_mathematics_of_the_page_can_be_set(every):
     found = re.findall(r"^```math\n(.+)\n```$", PAGE, re.MULTILINE)
     assert len(found) > 100
     parser = MathTextParser("path")
-    for each in found:
+    for each in found[::every]:
         parser.parse(f"${each}$")  # raises ValueError
 
 

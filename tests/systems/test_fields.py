@@ -14,6 +14,7 @@ import matplotlib
 import numpy as np
 import pytest
 import xarray as xr
+from built import Built
 from comparison import approx
 from matplotlib.figure import Figure
 from test_resume import KILLED, bits
@@ -32,6 +33,16 @@ PAGE = (Path(__file__).parents[2] / "docs" / "how-to" / "fields.md").read_text("
 CONTACT = ("pressure", "fluid_pressure", "solid_pressure", "gap")
 KINDS = ("tribofilm", "wear", "plastic")
 END = 200.0
+
+
+@pytest.fixture(scope="module")
+def scene(fine: Scene) -> Scene:
+    return fine
+
+
+@pytest.fixture(scope="module")
+def fmu(scene: Scene, built: Built) -> Path:
+    return built.fmu(scene, "embedded")
 
 
 @pytest.fixture(scope="module")
@@ -106,9 +117,9 @@ def test_the_file_gives_back_every_map_compressed_and_the_table_stays(
     found: xr.Dataset, plain: xr.Dataset, scene: Scene, changing: Duty, tmp_path: Path
 ) -> None:
     described = origin.with_scene(plain, scene, changing, 7)
-    netcdf, table = results.write(described, tmp_path, maps=found)
+    binary, table = results.write(described, tmp_path, maps=found)
     assert results.write_csv(described, tmp_path / "alone.csv").read_bytes() == table.read_bytes()
-    with xr.open_dataset(netcdf) as read:
+    with xr.open_dataset(binary) as read:
         xr.testing.assert_identical(read[list(found.data_vars)].drop_attrs(deep=False).load(), found)
         assert read.attrs["fields"] == 7
         xr.testing.assert_identical(read[list(plain.data_vars)].drop_attrs(), plain.drop_attrs())
@@ -192,7 +203,7 @@ def test_a_run_with_fields_goes_on_from_its_rows_bit_for_bit(
         Checkpoint.resume(saved[2], origin.identity(scene, changing))
     sizes = [(left / "checkpoint.kept").stat().st_size for left in saved]
     assert sorted(set(sizes)) == sizes, "the file of the records only grows"
-    for count in (1, 4, 5, 7):
+    for count in (4, 7):
         checkpoint, fields = Checkpoint.resume(saved[count - 1], who), every_row(scene, changing)
         assert len(checkpoint.kept) == count
         caplog.clear()
@@ -230,10 +241,10 @@ def test_a_run_with_fields_that_is_killed_again_and_again_writes_the_same_files(
     for folder in (whole, killed):
         assert sorted(path.name for path in folder.iterdir()) == names
     assert all((whole / name).read_bytes() == (killed / name).read_bytes() for name in names)
-    with xr.open_dataset(whole / "result.nc") as read:
-        assert read["field_time"].values.tolist() == [0.0, 24.0, 48.0, 72.0]
-        assert set(read["field_time"].values) <= set(read["time"].values)
-        assert (read["tribofilm_map_1"].max(("y", "x_track")).diff("field_time") > 0.0).all()
+    read = results.read(whole / "result.nc")
+    assert read["field_time"].values.tolist() == [0.0, 24.0, 48.0, 72.0]
+    assert set(read["field_time"].values) <= set(read["time"].values)
+    assert (read["tribofilm_map_1"].max(("y", "x_track")).diff("field_time") > 0.0).all()
 
 
 def test_other_fields_are_another_run_and_a_result_without_them_is_not_finished(
@@ -248,8 +259,8 @@ def test_other_fields_are_another_run_and_a_result_without_them_is_not_finished(
     for same in ([*command, "--fields", "1"], command):
         assert main(same) == 0
         assert "This run is finished" in capsys.readouterr().err
-    with xr.open_dataset(tmp_path / "result.nc") as read:
-        assert read["field_time"].values.tolist() == [18.0]
+    read = results.read(tmp_path / "result.nc")
+    assert read["field_time"].values.tolist() == [18.0]
 
 
 @pytest.mark.parametrize(
@@ -281,7 +292,7 @@ def test_a_machine_has_no_fields(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_fields_that_fill_the_memory_are_refused_and_large_ones_warned_of(
-    scene: Scene, duty: Duty, caplog: pytest.LogCaptureFixture
+    scene: Scene, changing: Duty, caplog: pytest.LogCaptureFixture
 ) -> None:
     fine = replace(scene, film=replace(scene.film, points=1025))
     points = [float(k) for k in range(200)]
@@ -289,8 +300,8 @@ def test_fields_that_fill_the_memory_are_refused_and_large_ones_warned_of(
     with pytest.raises(
         ContactError, match=r"would keep 8\.4 GB of maps, 42 MB at each time; .* Use --fields 95 or less"
     ):
-        Fields(fine, duty, points, 200)
-    Fields(fine, duty, points, 20)
+        Fields(fine, changing, points, 200)
+    Fields(fine, changing, points, 20)
     assert "--fields 20 keeps 0.84 GB of maps in memory" in caplog.text
 
 
@@ -307,9 +318,9 @@ def test_fields_that_fill_the_memory_are_refused_and_large_ones_warned_of(
     ],
 )
 def test_times_are_rows_evenly_spread_from_start_to_end(
-    scene: Scene, duty: Duty, points: list[float], count: int, times: list[float]
+    scene: Scene, changing: Duty, points: list[float], count: int, times: list[float]
 ) -> None:
-    assert Fields(scene, duty, points, count).times == times
+    assert Fields(scene, changing, points, count).times == times
 
 
 def test_a_patch_that_has_got_more_rows_is_as_new_there_before(scene: Scene) -> None:
@@ -345,9 +356,8 @@ def shown(figure: Figure) -> dict[str, Any]:
     return {axis.get_title(): axis for part in figure.subfigs for axis in part.axes if axis.get_visible()}
 
 
-@pytest.mark.usefixtures("rendered")
 def test_the_picture_shows_pads_tracks_profiles_and_coverage(
-    found: xr.Dataset, plain: xr.Dataset, tmp_path: Path
+    found: xr.Dataset, plain: xr.Dataset, tmp_path: Path, drawn: bool
 ) -> None:
     panels = shown(track_picture.picture(plain, found))
     times = ("50 s", "100 s", "120 s", "200 s")
@@ -361,10 +371,10 @@ def test_the_picture_shows_pads_tracks_profiles_and_coverage(
         assert len(panels[f"wear of body {body} across the track"].lines) == 7 + 2
     assert {"pressure, 200 s", "gap, 200 s", "coverage of the track", "surface of body 2: a cross-section"} < {*panels}
     path = track_picture.write(plain, found, tmp_path / "track.png")
-    assert path.stat().st_size > 100_000
+    assert path.stat().st_size > (100_000 if drawn else 0)
 
 
-@pytest.mark.parametrize("count", [1, 2, 3])
+@pytest.mark.parametrize("count", [1, *(pytest.param(count, marks=pytest.mark.long) for count in (2, 3))])
 def test_the_picture_of_few_times_has_no_empty_panel(found: xr.Dataset, plain: xr.Dataset, count: int) -> None:
     panels = shown(track_picture.picture(plain, found.isel(field_time=range(7 - count, 7))))
     assert all(axis.has_data() for title, axis in panels.items() if title)
@@ -389,6 +399,6 @@ def test_without_fields_nothing_of_them_is_written(
     caplog.set_level(logging.WARNING)
     assert main(["run", "mtm_zddp", *coarse, "--hours", "0.005", "--out", str(tmp_path)]) == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == ["result.csv", "result.nc"]
-    with xr.open_dataset(tmp_path / "result.nc") as read:
-        assert read.sizes == {"time": 2}
-        assert "fields" not in read.attrs
+    read = results.read(tmp_path / "result.nc")
+    assert read.sizes == {"time": 2}
+    assert "fields" not in read.attrs

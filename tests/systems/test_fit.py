@@ -73,7 +73,7 @@ def test_three_temperatures_fitted_at_once_predict_the_eight_of_24_held_back(sce
     assert np.mean(tenth) < 3.0, tenth
 
 
-@pytest.mark.usefixtures("rendered")
+@pytest.mark.usefixtures("drawn")
 @pytest.mark.parametrize("constants", [1, pytest.param(3, marks=pytest.mark.long)])
 def test_the_example_of_the_page_runs_and_its_set_is_what_the_next_run_uses(
     constants: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

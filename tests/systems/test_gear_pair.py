@@ -128,14 +128,13 @@ def test_pressures_at_the_pitch_point_are_those_of_the_load_stages(record: Recor
     assert found == approx([1108.0, 1474.0], rel=1e-3)
 
 
-@pytest.mark.usefixtures("rendered")
-def test_the_report_has_a_row_for_each_stage_and_four_pictures(record: Record, tmp_path: Path) -> None:
+def test_the_report_has_a_row_for_each_stage_and_four_pictures(record: Record, tmp_path: Path, drawn: bool) -> None:
     lines = gear_pair_report.lines(record.assembly, record.dataset)
     table = lines[2 : lines.index("")]
     assert [line.split()[0] for line in table] == ["1", "2"]
     written = gear_pair_report.write(record.assembly, record.dataset, tmp_path)
     assert [path.name for path in written] == ["overview.png", "path.png", "time.png", "safety.png"]
-    assert all(path.stat().st_size > 20_000 for path in written)
+    assert all(path.stat().st_size > (20_000 if drawn else 0) for path in written)
 
 
 def test_the_run_and_the_standard_have_safety_factors_of_their_own(record: Record) -> None:
@@ -174,13 +173,14 @@ def test_the_report_says_what_is_assumed_where_the_file_has_no_rating(record: Re
 
 def test_the_report_gives_a_run_of_the_micropitting_test_its_class(tmp_path: Path) -> None:
     duty = {**CONSTANT, "torque": "28.79 N m", "duration": "40 s", "steps": [{"time": "20 s", "torque": "265 N m"}]}
-    assembly = assembled(duty)
+    assembly = assembled(duty, stations=4)
     said = "\n".join(gear_pair_report.lines(assembly, run(assembly, tmp_path)))
     assert "Class of FVA 54/7 with these flanks: high by the standard" in said  # Ra of 0.32 um, not 0.5
 
 
+@pytest.mark.long
 def test_starts_and_stops_wear_the_flanks_anew_each_time(tmp_path: Path) -> None:
-    duty = {**CONSTANT, "start_stop": {"signals": ["speed"], "run": "20 s", "standstill": "20 s"}, "repeat": 2}
+    duty = {**CONSTANT, "start_stop": {"signals": ["speed"], "run": "10 s", "standstill": "10 s"}, "repeat": 2}
     assembly = assembled(duty, stations=4)
     record = Record(assembly, run(assembly, tmp_path))
     assert len(record.stages) == 2
@@ -192,6 +192,7 @@ def test_starts_and_stops_wear_the_flanks_anew_each_time(tmp_path: Path) -> None
     assert len(gear_pair_pictures.time(record).axes) == 8
 
 
+@pytest.mark.long
 def test_a_duty_from_a_table_is_followed(tmp_path: Path) -> None:
     (tmp_path / "cycle.csv").write_text(
         "time [s],speed [rpm],torque [N m]\n0,1000,50\n20,2000,100\n40,1500,0\n60,1500,0\n"

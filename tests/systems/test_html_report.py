@@ -28,6 +28,7 @@ from system_models.html_report.shown import stated, unit_for
 from system_models.run.assumed import ATTRIBUTE as ASSUMED
 from system_models.run.assumed import stored as stored_values
 from system_models.run.causes import ATTRIBUTE
+from system_models.store import results
 from system_models.store.checkpoint import Checkpoint
 
 RUN = ["run", "mtm_zddp", "--set", *COARSE, "--hours", "0.025", "--fields", "3"]
@@ -53,8 +54,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def result(folder: Path) -> xr.Dataset:
-    with xr.open_dataset(folder / "result.nc") as dataset:
-        return dataset.load()
+    return results.read(folder / "result.nc")
 
 
 @pytest.fixture(scope="module")

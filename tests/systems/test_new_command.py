@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import pytest
-import xarray as xr
 
 from contact_core import Scene
 from system_models.cli.main import main
+from system_models.store import results
 
 COARSE = ["--set", "film.model=regression"]
 
@@ -26,9 +26,9 @@ def test_a_new_scene_runs_at_once_and_says_what_it_assumes(capsys: pytest.Captur
     assert out.startswith("mine: 50 N, 1.1 m/s, 0.9 m/s, 60 degC\nContact: Hertz pressure 1.09 GPa")
     (said,) = [line for line in err.splitlines() if line.startswith("tribofmu: note: assumed: ")]
     assert "lubricant.viscosity.pressure_coefficient 16.9 GPa^-1" in said
-    with xr.open_dataset("results/mine/result.nc") as result:
-        assert result["valid"].all()
-        assert 100e-9 < float(result["h_c"][0]) < 200e-9
+    result = results.read(Path("results/mine/result.nc"))
+    assert result["valid"].all()
+    assert 100e-9 < float(result["h_c"][0]) < 200e-9
 
 
 @pytest.mark.parametrize("like", ["mtm_zddp", "dimple_rolling"])
@@ -96,8 +96,8 @@ def test_the_result_of_another_scene_is_not_replaced_without_force(
     assert (folder / "results/mine/result.nc").read_bytes() == before
     assert main([*command, "--force"]) == 0
     assert "a result of 'mine', will be replaced" in capsys.readouterr().err
-    with xr.open_dataset("results/mine/result.nc") as result:
-        assert result.attrs["scene"] == "other"
+    result = results.read(Path("results/mine/result.nc"))
+    assert result.attrs["scene"] == "other"
 
 
 def test_a_result_of_other_settings_is_replaced_with_a_word_and_the_same_one_without(

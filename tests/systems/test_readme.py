@@ -65,7 +65,8 @@ def test_the_duty_is_a_duty(tmp_path: Path, scene: Scene) -> None:
 def test_the_example_of_friction_and_heat_runs() -> None:
     changes = tomllib.loads(block("toml", "[lubricant]"))
     table = read_table("mtm_zddp") | changes
-    scene = Scene.from_dict(table | {"film": table["film"] | {"points": 65}})
+    coarse = {"film": {"points": 17}} | {f"surface_{body}": {"correlation_length": "32 um"} for body in (1, 2)}
+    scene = Scene.from_dict(table | {name: table[name] | change for name, change in coarse.items()})
     assert (scene.lubricant.flow, scene.heat.name, scene.heat.bulk.name) == ("local", "field", "lumped")
     state, outputs = advance(scene, scene.operation.point, initial_state(scene), 0.02)
     assert outputs.heat_flow_1 + outputs.heat_flow_2 == approx(outputs.power_loss, rel=1e-12)

@@ -36,9 +36,10 @@ def test_the_attributes_make_the_scene_again(dataset: xr.Dataset, scene: Scene, 
 
 def test_netcdf_gives_back_what_was_written(dataset: xr.Dataset, scene: Scene, duty: Duty, tmp_path: Path) -> None:
     described = origin.with_scene(dataset, scene, duty)
-    netcdf, _ = results.write(described, tmp_path)
-    with xr.open_dataset(netcdf) as read:
+    binary, _ = results.write(described, tmp_path)
+    with xr.open_dataset(binary) as read:
         xr.testing.assert_identical(read.load(), described)
+    xr.testing.assert_identical(results.read(binary), described)
 
 
 def test_csv_names_units_and_keeps_every_digit(dataset: xr.Dataset, tmp_path: Path) -> None:

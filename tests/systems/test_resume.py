@@ -22,9 +22,11 @@ from system_models.run import report
 from system_models.run.contact import run
 from system_models.run.duty import Duty
 from system_models.run.origin import identity
+from system_models.store import results
 from system_models.store.checkpoint import Checkpoint
 
-STILL = [part for law in ("tribofilm", "wear", "heat") for part in ("--set", f"{law}.model=none")]
+QUICK = ["--set", "film.model=regression"]
+BEFORE, BETWEEN = "before the checkpoint is replaced", "between two steps"  # of KILLED
 NAMES = ["result.csv", "result.nc"]  # without a picture
 
 
@@ -151,34 +153,45 @@ main(arguments)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
+@pytest.mark.parametrize(
+    ("level", "kills", "minutes"),
+    [
+        ("regression", {BEFORE: 4}, 0.4),
+        pytest.param("deterministic", {BEFORE: 3, BETWEEN: 4}, 0.8, marks=pytest.mark.long),
+    ],
+)
 def test_a_run_that_is_killed_again_and_again_writes_the_same_files(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, coarse: list[str], no_picture: None
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    coarse: list[str],
+    no_picture: None,
+    level: str,
+    kills: dict[str, int],
+    minutes: float,
 ) -> None:
-    command = ["run", "mtm_zddp", *coarse, "--set", "operation.interval=12 s", "--resume"]
+    """Each kill leaves one row less than calls."""
+    command = ["run", "mtm_zddp", *coarse, "--set", f"film.model={level}", "operation.interval=12 s", "--resume"]
     whole, killed = tmp_path / "whole", tmp_path / "killed"
     assert main([*command, "--out", str(whole)]) == 0
     assert "There is no checkpoint" in capsys.readouterr().err
-    row = 0
-    for where, last in (("before the checkpoint is replaced", 3), ("between two steps", 4)):
+    for where, last in kills.items():
         child = subprocess.run(
             [sys.executable, "-c", KILLED, where, str(last), *command, "--out", str(killed)],
             capture_output=True,
             text=True,
         )
         assert child.returncode == -signal.SIGKILL, child.stderr
-        assert (killed / "checkpoint.new").exists() == (where == "before the checkpoint is replaced")
-        row += last - 1
+        assert (killed / "checkpoint.new").exists() == (where == BEFORE)
         assert {path.name for path in killed.iterdir()} >= {"checkpoint.tribofmu", "checkpoint.rows"}
-    assert row == 5
     assert main([*command, "--out", str(killed)]) == 0
-    assert f"Continuing from '{killed / 'checkpoint.tribofmu'}' at 0.8 min" in capsys.readouterr().err
+    assert f"Continuing from '{killed / 'checkpoint.tribofmu'}' at {minutes} min" in capsys.readouterr().err
     for folder in (whole, killed):
         assert sorted(path.name for path in folder.iterdir()) == NAMES
     for name in NAMES:
         assert (whole / name).read_bytes() == (killed / name).read_bytes(), name
-    with xr.open_dataset(whole / "result.nc") as dataset:
-        assert dataset.sizes["time"] == 7
-        assert dataset["tribofilm_1"].values[-1] > dataset["tribofilm_1"].values[5] > 0.0
+    dataset = results.read(whole / "result.nc")
+    assert dataset.sizes["time"] == 7
+    assert dataset["tribofilm_1"].values[-1] > dataset["tribofilm_1"].values[5] > 0.0
 
 
 def interrupted(call: int, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -203,7 +216,7 @@ def test_after_ctrl_c_the_command_says_how_to_go_on_and_does(
     coarse: list[str],
     no_picture: None,
 ) -> None:
-    command = ["run", "mtm_zddp", *coarse, *STILL, "--set", "operation.interval=20 s", "--resume", "--out"]
+    command = ["run", "mtm_zddp", *coarse, *QUICK, "--set", "operation.interval=20 s", "--resume", "--out"]
     assert main([*command, str(tmp_path / "whole")]) == 0
     monkeypatch.setattr(Checkpoint, "due", lambda self: True)
     for call, count in ((1, 0), (4, 3)):  # the first is at initialisation
@@ -253,7 +266,7 @@ def test_a_failure_says_how_to_go_on(
         raise FMICallException(function="fmi2DoStep", status=3)
 
     monkeypatch.setattr(Fmi2Instance, "_do_step", fail)
-    assert main(["run", "mtm_zddp", *coarse, *STILL, "--out", str(tmp_path)]) == 2
+    assert main(["run", "mtm_zddp", *coarse, *QUICK, "--out", str(tmp_path)]) == 2
     last = capsys.readouterr().err.splitlines()[-1]
     assert "tribofmu: The FMU 'contact' failed in the step from 0 s" in last
     assert "the same command with --resume continues from there." in last
@@ -266,7 +279,7 @@ def test_a_finished_run_is_not_computed_again(
     coarse: list[str],
     no_picture: None,
 ) -> None:
-    command = ["run", "mtm_zddp", *coarse, *STILL, "--out", str(tmp_path), "--resume"]
+    command = ["run", "mtm_zddp", *coarse, *QUICK, "--out", str(tmp_path), "--resume"]
     assert main(command) == 0
     capsys.readouterr()
     with monkeypatch.context() as patch:
@@ -287,7 +300,7 @@ def test_other_settings_and_damage_are_refused_and_a_run_without_resume_starts_o
     coarse: list[str],
     no_picture: None,
 ) -> None:
-    command = ["run", "mtm_zddp", *coarse, *STILL, "--out", str(tmp_path)]
+    command = ["run", "mtm_zddp", *coarse, *QUICK, "wear.model=none", "--out", str(tmp_path)]
     with monkeypatch.context() as patch:
         interrupted(2, patch)
         assert main(command) == 130

@@ -16,6 +16,7 @@ from system_models.cli.main import main
 from system_models.run import stribeck, stribeck_report
 from system_models.run.duty import Duty
 from system_models.run.stribeck import Curves, Plan, measure, rubbing, transition_speed
+from system_models.store import results
 
 FAST, SLOW = 8.0, 0.008
 DRY = ["--set", "control.driver=dry"]  # costs next to nothing
@@ -283,7 +284,7 @@ def test_points_that_are_not_converged_are_hollow(swept: xr.Dataset) -> None:
     assert axis.get_legend().get_texts()[-1].get_text() == "not converged"
 
 
-@pytest.mark.usefixtures("rendered")
+@pytest.mark.usefixtures("drawn")
 def test_the_command_prints_a_table_and_writes_three_files(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
 ) -> None:
@@ -297,12 +298,12 @@ def test_the_command_prints_a_table_and_writes_three_files(
     folder = tmp_path / "results" / "mtm_zddp"
     assert {path.name for path in folder.iterdir()} == {"stribeck.nc", "stribeck.csv", "stribeck.png"}
     assert all(str(Path("results/mtm_zddp") / path.name) in out for path in folder.iterdir())
-    with xr.open_dataset(folder / "stribeck.nc") as dataset:
-        assert dataset["rubbing_time"].values.tolist() == [0.0, 30.0, 60.0]
-        assert dataset["entrainment_speed"].values.tolist() == approx([2.0, 0.005])
-        assert float(dataset["slide_roll_ratio"]) == 0.5
-        assert dataset.attrs["scene"] == "mtm_zddp"
-        expected = dataset["friction_coefficient"].values.ravel().tolist()
+    dataset = results.read(folder / "stribeck.nc")
+    assert dataset["rubbing_time"].values.tolist() == [0.0, 30.0, 60.0]
+    assert dataset["entrainment_speed"].values.tolist() == approx([2.0, 0.005])
+    assert float(dataset["slide_roll_ratio"]) == 0.5
+    assert dataset.attrs["scene"] == "mtm_zddp"
+    expected = dataset["friction_coefficient"].values.ravel().tolist()
     with (folder / "stribeck.csv").open(newline="") as file:
         header, *rows = csv.reader(file)
     assert header[:3] == ["rubbing_time [s]", "entrainment_speed [m/s]", "friction_coefficient [1]"]
@@ -317,10 +318,10 @@ def test_an_interrupt_keeps_what_was_measured(
     command = ["stribeck", "mtm_zddp", *coarse, *DRY, "--times", "0,1", "--points", "2", "--out", str(tmp_path)]
     assert main(command) == 130
     assert f"tribofmu: Interrupted. The 3 points measured so far are in '{tmp_path}" in capsys.readouterr().err
-    with xr.open_dataset(tmp_path / "stribeck.nc") as dataset:
-        assert dataset["valid"].values.tolist() == [[True, True], [True, False]]
-        assert np.isfinite(dataset["friction_coefficient"].values).tolist() == [[True, True], [True, False]]
-        assert dataset.attrs["failures"] == "1 points were not reached."
+    dataset = results.read(tmp_path / "stribeck.nc")
+    assert dataset["valid"].values.tolist() == [[True, True], [True, False]]
+    assert np.isfinite(dataset["friction_coefficient"].values).tolist() == [[True, True], [True, False]]
+    assert dataset.attrs["failures"] == "1 points were not reached."
 
 
 def test_rubbing_that_cannot_go_on_keeps_what_was_measured(
@@ -336,10 +337,10 @@ def test_rubbing_that_cannot_go_on_keeps_what_was_measured(
     assert main(command) == 2
     err = capsys.readouterr().err
     assert "tribofmu: No solution was found. Use a finer grid. The 2 points measured so far are in" in err
-    with xr.open_dataset(tmp_path / "stribeck.nc") as dataset:
-        assert dataset["valid"].values.tolist() == [[True, True], [False, False]]
-        assert np.isnan(dataset["composite_roughness"].values).tolist() == [False, True]
-        assert dataset.attrs["failures"] == "2 points were not reached."
+    dataset = results.read(tmp_path / "stribeck.nc")
+    assert dataset["valid"].values.tolist() == [[True, True], [False, False]]
+    assert np.isnan(dataset["composite_roughness"].values).tolist() == [False, True]
+    assert dataset.attrs["failures"] == "2 points were not reached."
 
 
 def test_an_interrupt_before_the_first_point_leaves_an_older_result(

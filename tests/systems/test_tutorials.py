@@ -105,6 +105,7 @@ def test_own_oil() -> None:
     assert float(names["film"].max() / names["film"].min()) < 1.02
 
 
+@pytest.mark.long
 def test_writing_a_law(capsys: pytest.CaptureFixture[str]) -> None:
     names = followed("writing_a_law")
     assert "McEwen, J. Inst. Petroleum" in capsys.readouterr().out  # of `explain`

@@ -171,7 +171,7 @@ def _table(dataset: xr.Dataset, found: list[Sweep]) -> list[str]:
 
 def _told(dataset: xr.Dataset, name: str, row: int, factor: float, digits: int) -> str:
     """Return a value as text, with the half width of its error where one is stated."""
-    value, half = factor * float(dataset[name].values[row]), dataset.coords.get(f"{name}{ERROR}")
+    value, half = factor * float(dataset[name].values[row]), dataset.variables.get(f"{name}{ERROR}")
     if half is None:
         return f"{value:.{digits}f}"
     return cell(name.rpartition(".")[2], value, factor * float(half.values[row]), digits)
