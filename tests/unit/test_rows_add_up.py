@@ -59,21 +59,20 @@ MIXED = {"control.driver": "mixed", "control.mixed_instants": "2"}
 @pytest.mark.parametrize(
     ("level", "changes"),
     [
-        ("deterministic", HALF_DRY),
-        ("deterministic", HALF_DRY | FIELD),
-        ("deterministic", {"control.driver": "dry"}),
-        ("deterministic", MIXED),
-        ("regression", {}),
-        ("regression", FIELD),
-        ("auto", HALF_DRY),
+        pytest.param("deterministic", HALF_DRY, id="half_dry", marks=pytest.mark.long),
+        pytest.param("deterministic", HALF_DRY | FIELD, id="field"),
+        pytest.param("deterministic", {"control.driver": "dry"}, id="dry"),
+        pytest.param("deterministic", MIXED, id="mixed", marks=pytest.mark.long),
+        pytest.param("regression", {}, id="regression"),
+        pytest.param("regression", FIELD, id="regression_field"),
+        pytest.param("auto", HALF_DRY, id="auto"),
     ],
-    ids=["half_dry", "field", "dry", "mixed", "regression", "regression_field", "auto"],
 )
 def test_every_row_of_a_changing_duty_adds_up_and_opposes_the_sliding(level, changes):
     scene, state, op = cheap(COARSE | {"tribofilm.beyond_fit": "extrapolate"} | changes)
     scene, equal = scene.at_level(level), "heat.model" not in changes
     for now in points(op):
-        for dt in (0.0, 2.0):
+        for dt in (0.0, 0.5):
             state, outputs = advance(scene, now, state, dt)
             checked(now, outputs, equal_bodies=equal)
 
