@@ -17,7 +17,7 @@ from contact_core import (
     advance,
     solve,
 )
-from contact_core.quantities import LEVELS, TABLE, value_out_of_range
+from contact_core.quantities import TABLE, value_out_of_range
 from contact_core.scene import Case
 
 BARE = CHEAP | {"tribofilm.model": "none"}
@@ -480,7 +480,9 @@ def test_dry_pressures_are_weighted_by_the_share_of_the_solids():
         assert outputs.wear_rate_1 == approx(expected, rel=1e-9, abs=0.0)
 
 
-@pytest.mark.parametrize("level", [level for level in LEVELS if level != "map"])  # that one: properties/test_map_random
+@pytest.mark.parametrize(  # that of a map: properties/test_map_random
+    "level", ["deterministic", "regression", pytest.param("auto", marks=pytest.mark.long)]
+)
 def test_every_output_stays_within_its_declared_range_whichever_way_the_bodies_move(level):
     scene, fresh, op = cheap()
     scene, signs = scene.at_level(level), {}

@@ -67,7 +67,7 @@ def test_solids_of_a_dry_contact_under_oil_carry_their_share(share, floor, near)
 
 def test_dry_contact_under_oil_touches_and_rubs_like_the_mixed_one_and_not_like_the_dry_one():
     """Blocks above control.dry_above rest on this claim; shipped scenes: docs/measured/surfaces/evolution.md."""
-    scene, state, op = cheap(film__points=65, control__mixed_instants=32, control__dry_instants=16)
+    scene, state, op = cheap(control__mixed_instants=12, control__dry_instants=8)
     slow = replace(op, speed_1=0.1 * op.speed_1, speed_2=0.1 * op.speed_2)
     mixed = Accumulator.before(state)
     sample_mixed(Case(scene, slow), state, mixed, False)
@@ -138,6 +138,7 @@ def test_a_dry_block_says_how_many_of_the_mixed_solutions_it_relies_on_have_not_
         assert RangeFlag.NOT_CONVERGED in RangeFlag(outputs.range_flags)
 
 
+@pytest.mark.long
 def test_a_march_is_settled_before_it_is_sampled_however_far_the_faster_body_runs_ahead():
     smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none"} | HARD
     scene, state, point = cheap(CHEAP | smooth, film__points=97)
