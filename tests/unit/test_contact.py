@@ -120,7 +120,7 @@ def test_a_film_is_squeezed_out_until_the_contact_is_dry():
     assert solid_share(fields) > 0.95
 
 
-@pytest.mark.parametrize("speed", [0.25, 4.0])
+@pytest.mark.parametrize("speed", [pytest.param(0.25, marks=pytest.mark.long), 4.0])
 def test_a_thick_film_settles_to_the_answer_that_a_dry_start_finds(speed):
     scene, state = rough()
     op = at(scene, speed)
