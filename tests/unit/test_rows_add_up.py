@@ -93,14 +93,14 @@ def test_friction_of_the_oil_neither_turns_nor_drops_where_blocks_turn_dry():
     scene, state, op = cheap(CHEAP | HALF_DRY | {"tribofilm.model": "none", "control.longest": "20 s"})
     state, outputs = advance(scene, op, state, 0.0)
     counts, fluid = [], []
-    for _ in range(20):
+    for _ in range(12):
         state, outputs = advance(scene, op, state, 20.0)
         checked(op, outputs)
         counts.append((outputs.blocks_mixed, outputs.blocks_dry))
         fluid.append(outputs.friction_fluid)
     assert outputs.blocks_dry > 5
     only, fresh, _ = cheap(CHEAP | HALF_DRY | {"tribofilm.model": "none", "control.driver": "mixed"})
-    _, mixed = advance(only, op, fresh, 400.0)
+    _, mixed = advance(only, op, fresh, 240.0)
     share = (1.0 - outputs.contact_load_ratio) / (1.0 - mixed.contact_load_ratio)
     assert fluid[-1] == approx(share * mixed.friction_fluid, rel=0.3)
     assert max(fluid) < 2.0 * min(fluid)
