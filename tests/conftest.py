@@ -1,5 +1,6 @@
 """What all tests share: markers, of which `long` waits for .ci/full; random inputs repeat in every run."""
 
+import gc
 import os
 import signal
 import sys
@@ -21,6 +22,8 @@ from hypothesis import HealthCheck, settings
 # a background job of a shell inherits that Ctrl-C is ignored; tests of interrupts raise it themselves
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
+gc.disable()  # until all tests are found, of which nothing is garbage
+
 UNTIMED = [HealthCheck.too_slow]  # which a busy machine fails
 EXAMPLES = int(os.environ.get("TRIBOFMU_TEST_EXAMPLES", "25"))  # of each property: more in .ci/full
 settings.register_profile(
@@ -32,6 +35,12 @@ settings.load_profile("repeatable")
 def pytest_xdist_auto_num_workers() -> int:
     """One more than there are processors: some tests wait for processes and for limits of time."""
     return (os.cpu_count() or 1) + 1
+
+
+def pytest_collection_finish() -> None:
+    """What is there by now stays: searches for garbage leave it alone."""
+    gc.freeze()
+    gc.enable()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -55,7 +55,7 @@ def test_a_supply_film_starves_the_contact_as_chevalier_and_others_found(load, m
     now, grid, _ = contact(load, material, 129, conserving=True)
     flooded, found = centre(now, grid)
     density = float(now.density(found.state.pressure.max()))
-    for r in (0.25, 0.5, 1.0, 2.0, 5.0):
+    for r in (0.25, 1.0, 5.0):
         supply = r * density * flooded
         starved, _ = centre(replace(now, supply=supply), grid)
         assert starved == approx(supplied_film(flooded, supply, density), rel=0.05)

@@ -51,7 +51,7 @@ def rough_ball(accuracy=None, nodes=65, speed=0.25, **more):
 FINER = {
     "ball": (
         lambda **more: point_contact(**(BALL | THIN), **more),
-        lambda: point_contact(**(BALL | THIN), grid=385, tolerance=1e-4),
+        lambda: point_contact(**(BALL | THIN), grid=257, tolerance=1e-4),
     ),
     "line": (
         lambda **more: line_contact(**FLANK, **more),

@@ -61,7 +61,7 @@ def marched(scene, state, op, steps=100):
 
 @pytest.mark.parametrize(  # fitted flow holds a film at a hundredth of the speed
     ("flux", "speed"),
-    [("fitted", 0.005), ("fitted", 0.04), ("upwind", 0.25), ("upwind", 4.0)],
+    [pytest.param("fitted", 0.005, marks=pytest.mark.long), ("fitted", 0.04), ("upwind", 0.25), ("upwind", 4.0)],
 )
 def test_fluid_and_solids_satisfy_the_equations_written_independently(flux, speed):
     scene, state = rough(ROUGH | HARD, film__flux=flux, film__tolerance=2e-4)

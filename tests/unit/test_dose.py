@@ -86,7 +86,8 @@ def test_the_supply_of_additive_bounds_every_point_s_growth():
     assert 0.99 * SECONDS * 2e-11 < most <= SECONDS * 2e-11
 
 
-@pytest.mark.parametrize("name", ["mtm_zddp", pytest.param("azam_case_a", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["mtm_zddp", "azam_case_a"])
 def test_the_shipped_shares_are_those_of_the_balls_at_the_start(name):
     scene = Scene.from_toml(name, {"film.points": "65"})
     law, point = scene.tribofilm, scene.operation.point

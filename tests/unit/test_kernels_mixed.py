@@ -116,7 +116,7 @@ def test_the_lumped_criterion_has_one_pressure_and_holds_solids_at_the_floor():
     assert it.solid.sum() > 1.2 * split.iterate.solid.sum()
 
 
-@pytest.mark.parametrize(("wave", "cap"), [(0.02, 1.2), (0.03, 1.5)])
+@pytest.mark.parametrize(("wave", "cap"), [(0.02, 1.2), pytest.param(0.03, 1.5, marks=pytest.mark.long)])
 @pytest.mark.parametrize("solve", [solve_mixed, solve_newton])
 def test_oil_that_presses_the_solids_in_settles_as_by_newtons_method(wave, cap, solve):
     """Newton's method has sets of its own: a node at the cap that gains mass is no unknown."""

@@ -81,7 +81,9 @@ def test_a_scene_that_asks_for_them_calls_them(name, monkeypatch):
     assert calls
 
 
-@pytest.mark.parametrize("heat", [{"heat.model": "none"}, pytest.param({}, marks=pytest.mark.long), FIELD])
+@pytest.mark.parametrize(
+    "heat", [*(pytest.param(each, marks=pytest.mark.long) for each in ({"heat.model": "none"}, {})), FIELD]
+)
 def test_all_power_leaves_as_heat_through_the_bodies(heat):
     scene, state, _ = cheap(CHEAP | heat)
     op = sliding(scene, 0.5, 0.8)

@@ -24,7 +24,7 @@ def middle(found):
     return int(np.abs(found.y).argmin())
 
 
-@pytest.mark.parametrize("load", [5e4, 8e5])
+@pytest.mark.parametrize("load", [5e4, pytest.param(8e5, marks=pytest.mark.long)])
 @pytest.mark.parametrize(
     "profile",
     [
