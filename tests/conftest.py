@@ -5,6 +5,7 @@ import os
 import signal
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import lark
 import pytest
 from built import Built
+from filelock import FileLock
 from hypothesis import HealthCheck, settings
+from numba.core.compiler_lock import global_compiler_lock
+from numba.core.dispatcher import Dispatcher
 
 # a background job of a shell inherits that Ctrl-C is ignored; tests of interrupts raise it themselves
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -59,6 +63,24 @@ def built(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
 @pytest.fixture(scope="session", autouse=True)
 def _native_fmus_share_their_parts(built: Built) -> Iterator[None]:
     with built.sharing():
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _each_kernel_compiled_once(built: Built) -> Iterator[None]:
+    """By the process that needs it first; the others wait for it."""
+    compiled = Dispatcher.compile
+
+    @cache
+    def lock(kernel: Any) -> FileLock:
+        return FileLock(built.root / f"{kernel.__module__}.{kernel.__qualname__}.lock")
+
+    def compile_once(self: Any, signature: Any) -> Any:
+        with global_compiler_lock, lock(self.py_func):
+            return compiled(self, signature)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Dispatcher, "compile", compile_once)
         yield
 
 
