@@ -175,6 +175,7 @@ def test_both_orders_converge_to_the_same_films(name, steps, near):
     assert first == approx(after_ramp(name, 64, 2), rel=near)
 
 
+@pytest.mark.long
 def test_a_film_settles_to_the_steady_one_of_the_new_load():
     scene, op, first = rolling()
     more = replace(op, load=20.0)

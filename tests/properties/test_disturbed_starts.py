@@ -110,6 +110,7 @@ CALLS = {  # by the row of `routes.REGIMES` that they belong to
 }
 SLOW = (  # each beside a quick one of its row and its algorithm
     "smooth: circle, heavy",
+    "roller: its ends touch",
     "boundary: near the floor, nodes at it",
     "mixed: near the floor, pockets",
     "mixed line: near the floor",

@@ -211,7 +211,8 @@ def inlet_film(stress, slide_to_roll):
     return film
 
 
-@pytest.mark.parametrize("slide_to_roll", [pytest.param(0.0, marks=pytest.mark.long), 1.0])
+@pytest.mark.long
+@pytest.mark.parametrize("slide_to_roll", [0.0, 1.0])
 def test_films_of_an_eyring_oil_thin_about_as_the_inlet_on_the_middle_row_does(slide_to_roll):
     """Within what Grubin's inlet leaves out: sides, and pressures that end at the edge of Hertz's contact."""
     heights, _ = films(Eyring(STRESS), slide_to_roll)

@@ -205,7 +205,7 @@ def test_a_range_of_one_temperature_has_the_thickness_of_its_start():
     assert law.largest(300.0) == law.largest(400.0) == WARMING.full_thickness_from
 
 
-@pytest.mark.parametrize("level", ["regression", "deterministic"])
+@pytest.mark.parametrize("level", ["regression", pytest.param("deterministic", marks=pytest.mark.long)])
 def test_a_warmer_rig_grows_a_film_faster_at_both_levels(level):
     grown = []
     for celsius in (60, 80, 100):

@@ -65,7 +65,7 @@ MIXED = {"control.driver": "mixed", "control.mixed_instants": "2"}
         pytest.param("deterministic", MIXED, id="mixed", marks=pytest.mark.long),
         pytest.param("regression", {}, id="regression"),
         pytest.param("regression", FIELD, id="regression_field"),
-        pytest.param("auto", HALF_DRY, id="auto"),
+        pytest.param("auto", HALF_DRY, id="auto", marks=pytest.mark.long),
     ],
 )
 def test_every_row_of_a_changing_duty_adds_up_and_opposes_the_sliding(level, changes):

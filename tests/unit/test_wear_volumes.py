@@ -217,6 +217,7 @@ def test_ten_times_the_wear_in_a_tenth_of_the_time_is_the_same_run():
     assert min(noise) > 0.0
 
 
+@pytest.mark.long
 def test_volumes_of_both_levels_differ_by_no_more_than_the_fast_one_says_and_by_more_than_a_tenth_of_it():
     """A minute on a grid beyond the fit, at two speeds."""
     scene, state, op = cheap(control__mixed_instants="4")
