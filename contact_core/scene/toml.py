@@ -1,10 +1,12 @@
 """TOML to records, with a sentence for everything that does not fit, and back."""
 
 import difflib
+import pickle
 import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
+from functools import lru_cache
 from importlib.resources import files
 from pathlib import Path
 from types import NoneType
@@ -46,10 +48,17 @@ def shipped_scenes() -> dict[str, str]:
 def read_table(source: str | Path, kind: str = "scene") -> dict[str, Any]:
     """Read a scene's TOML by name or path, as nested tables; `kind` of file, for messages."""
     try:
-        return tomllib.loads(text_of(source, kind))
+        table: dict[str, Any] = pickle.loads(_parsed(text_of(source, kind)))
+        return table
     except tomllib.TOMLDecodeError as error:
         hint = _of_toml(Path(source), error)
         raise SceneError(f"The {kind} file '{source}' is not valid TOML: {error}.{hint}") from None
+
+
+@lru_cache(maxsize=32)
+def _parsed(text: str) -> bytes:
+    """Return the tables of a text, from which each caller makes its own: sets are read for every scene anew."""
+    return pickle.dumps(tomllib.loads(text))
 
 
 def text_of(source: str | Path, kind: str = "scene") -> str:

@@ -6,6 +6,7 @@ number, too: where rad/s are asked for, 1/s will do.
 
 import math
 import re
+from functools import lru_cache
 
 from ..errors import SceneError
 
@@ -48,6 +49,7 @@ _TOKEN = re.compile(r"([A-Za-z\u00b5\u03bc%]+|1)(?:\^?(-?\d+))?$")
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf|nan)\s*(.*)$")
 
 
+@lru_cache(maxsize=256)
 def unit(text: str) -> tuple[float, Dimension]:
     """Factor to SI and dimension of a unit such as "mm", "GPa^-1", "Pa.s", "m3/s", "W/(m K)"."""
     if text in ("", "1"):

@@ -15,7 +15,7 @@ from contact_core.reference import hertz_point
 
 MODULUS, RADIUS = 230.47e9, 10e-3
 OF_POINTS = (0, 3, 4, 5, 6, 8)  # random contacts that cost next to nothing on the fine grid
-OF_LINES = tuple(range(12))
+OF_LINES = tuple(range(8))
 OIL = dict(reduced_modulus=MODULUS, viscosity=0.01, pressure_viscosity=15e-9, hardness=6e9, tolerance=1e-3)
 
 

@@ -1,5 +1,7 @@
 """What a run says about its own errors, against a run with five times finer blocks."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from comparison import approx
@@ -39,23 +41,27 @@ COVERED = {
 }
 
 
-def course(changes):
+def course(changes, minutes):
     scene = Scene.from_toml("azam_case_a", CHEAP | changes)
     state, found, last = initial_state(scene), [], 0
-    for minute in MINUTES:
+    for minute in minutes:
         state, out = advance(scene, scene.operation.point, state, 60.0 * (minute - last))
         last = minute
         found.append((out, uncertainty(scene, state)))
     return found
 
 
-@pytest.fixture(scope="module")
-def runs():
-    return course({}), course({"control.change": "0.6 nm", "control.longest": "24 s"})
+@cache
+def runs(minutes):
+    return course({}, minutes), course({"control.change": "0.6 nm", "control.longest": "24 s"}, minutes)
 
 
-def test_films_wear_and_contact_are_within_three_per_cent_of_the_finer_run(runs):
-    mine, fine = runs
+DUTIES = pytest.mark.parametrize("minutes", [MINUTES[:1], pytest.param(MINUTES, marks=pytest.mark.long)], ids=len)
+
+
+@DUTIES
+def test_films_wear_and_contact_are_within_three_per_cent_of_the_finer_run(minutes):
+    mine, fine = runs(minutes)
     for name in NAMES:
         if name in NOISY:
             continue
@@ -63,8 +69,9 @@ def test_films_wear_and_contact_are_within_three_per_cent_of_the_finer_run(runs)
         assert (sum(e * e for e in errors) / len(errors)) ** 0.5 < 0.03, name
 
 
-def test_most_differences_to_the_finer_run_are_within_the_reported_half_widths(runs):
-    mine, fine = runs
+@DUTIES
+def test_most_differences_to_the_finer_run_are_within_the_reported_half_widths(minutes):
+    mine, fine = runs(minutes)
     inside = {
         name: [
             abs(getattr(a, name) - getattr(b, name)) <= width[name].time + width[name].sampling
@@ -76,8 +83,9 @@ def test_most_differences_to_the_finer_run_are_within_the_reported_half_widths(r
     assert sum(flat) >= 0.75 * len(flat), inside
 
 
-def test_half_widths_are_not_so_wide_that_they_say_nothing(runs):
-    mine, _ = runs
+@DUTIES
+def test_half_widths_are_not_so_wide_that_they_say_nothing(minutes):
+    mine, _ = runs(minutes)
     for name in NAMES:
         if name in NOISY:
             continue
@@ -86,22 +94,24 @@ def test_half_widths_are_not_so_wide_that_they_say_nothing(runs):
 
 
 @pytest.mark.parametrize("error", OUTPUTS)
-def test_an_error_output_is_that_of_the_body_of_which_less_is_sure(runs, error):
-    for out, width in runs[0]:
+def test_an_error_output_is_that_of_the_body_of_which_less_is_sure(error):
+    for out, width in runs(MINUTES[:1])[0]:
         relative = [width[name].together / abs(getattr(out, name)) for name in OUTPUTS[error]]
         assert getattr(out, error) == approx(max(relative), rel=1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("error", OUTPUTS)
-def test_errors_by_blocks_cover_the_differences_to_the_finer_run_and_a_tenth_of_them_would_not(runs, error):
+def test_errors_by_blocks_cover_the_differences_to_the_finer_run_and_a_tenth_of_them_would_not(error):
+    mine, fine = runs(MINUTES)
     off = [
         max(abs(getattr(b, name) / getattr(a, name) - 1.0) for name in OUTPUTS[error])
-        for (a, _), (b, _) in zip(*runs, strict=True)
+        for (a, _), (b, _) in zip(mine, fine, strict=True)
     ]
     stated = np.array(
         [
             max(np.hypot(width[name].time, width[name].sampling) / getattr(out, name) for name in OUTPUTS[error])
-            for out, width in runs[0]
+            for out, width in mine
         ]
     )
     least, fewer, share = COVERED[error]

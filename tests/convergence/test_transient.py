@@ -55,30 +55,30 @@ def extrapolated(points, width=6.0):
 
 def test_a_ball_sinks_as_by_its_closed_form_at_second_order_in_space():
     # W = 6 pi eta R^2 V / h of a rigid ball, so h = h0 exp(-W t / (6 pi eta R^2)): exp(-1) after tau
-    errors = [extrapolated(points) * np.e - 1.0 for points in (33, 65)]
-    assert abs(errors[1]) < 0.04
+    errors = [extrapolated(points) * np.e - 1.0 for points in (25, 49)]
+    assert errors[1] + (errors[1] - errors[0]) / 3.0 == approx(0.0, abs=0.01)
     assert np.log2(errors[0] / errors[1]) == approx(2.0, abs=0.15)
 
 
 def test_what_lies_beyond_the_grid_carries_its_part():
-    narrow, wide = (extrapolated(points, width) for points, width in ((33, 3.0), (65, 6.0)))  # the same nodes
+    narrow, wide = (extrapolated(points, width) for points, width in ((25, 3.0), (49, 6.0)))  # the same nodes
     assert narrow == approx(wide, rel=2e-3)
 
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_sinking_has_the_order_in_time_that_was_asked_for(order):
-    coarse, middle, fine = (sunk(33, steps, order) for steps in (10, 20, 40))
+    coarse, middle, fine = (sunk(17, steps, order) for steps in (10, 20, 40))
     assert np.log2((coarse - middle) / (middle - fine)) == approx(order, abs=0.25)
 
 
 def test_sinking_does_not_notice_a_slight_entrainment_either_way():
-    rest, forward, back = (sunk(33, 5, speed=speed) for speed in (0.0, 1e-7, -1e-7))
+    rest, forward, back = (sunk(25, 5, speed=speed) for speed in (0.0, 1e-7, -1e-7))
     assert forward == approx(rest, rel=1e-4)
     assert back == approx(forward, rel=1e-10)
 
 
 def test_a_film_without_cavities_sinks_the_same_where_cavities_would_keep_their_oil():
-    assert sunk(33, 5, conserving=True) == approx(sunk(33, 5), rel=1e-6)
+    assert sunk(25, 5, conserving=True) == approx(sunk(25, 5), rel=1e-6)
 
 
 def test_a_cylinder_sinks_as_by_its_closed_form():
@@ -154,7 +154,8 @@ def after_ramp(name, steps, order):
 
 
 @pytest.mark.parametrize(
-    ("name", "order"), [pytest.param("speed", 2, marks=pytest.mark.long), ("radius", 1), ("radius", 2)]
+    ("name", "order"),
+    [*(pytest.param(*each, marks=pytest.mark.long) for each in [("speed", 2), ("radius", 1)]), ("radius", 2)],
 )
 def test_ramps_converge_in_time_with_the_order_asked_for(name, order):
     exact = (4.0 * after_ramp(name, 64, 2) - after_ramp(name, 32, 2)) / 3.0
@@ -163,14 +164,10 @@ def test_ramps_converge_in_time_with_the_order_asked_for(name, order):
     assert errors[2] < 4e-3 / order
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "steps", "near"),
-    [
-        pytest.param("load", 32, 1e-3, marks=pytest.mark.long),
-        pytest.param("load", 128, 2e-3, marks=pytest.mark.long),
-        ("radius", 32, 1e-3),
-        pytest.param("radius", 128, 2e-3, marks=pytest.mark.long),
-    ],
+    [("load", 32, 1e-3), ("load", 128, 2e-3), ("radius", 32, 1e-3), ("radius", 128, 2e-3)],
 )
 def test_both_orders_converge_to_the_same_films(name, steps, near):
     """First-order steps of less than a node carry the film over by another rule, which differs on this grid."""
@@ -178,6 +175,7 @@ def test_both_orders_converge_to_the_same_films(name, steps, near):
     assert first == approx(after_ramp(name, 64, 2), rel=near)
 
 
+@pytest.mark.long
 def test_a_film_settles_to_the_steady_one_of_the_new_load():
     scene, op, first = rolling()
     more = replace(op, load=20.0)

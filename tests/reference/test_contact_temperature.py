@@ -107,7 +107,7 @@ def test_the_hottest_percent_of_a_fast_sliding_line_is_bloks_flash_temperature()
     assert found == approx(blok, rel=0.03)
 
 
-@pytest.mark.parametrize("peclet", (1e-3, 0.1, 1.0, 3.0, 10.0, 100.0, 1e4))
+@pytest.mark.parametrize("peclet", (1e-3, 0.1, 1.0, 3.0, 10.0, 100.0, pytest.param(1e4, marks=pytest.mark.long)))
 def test_conductances_of_the_hottest_spot_are_those_of_jaegers_integral(peclet):
     still = np.array([0.0]) if peclet < 1e-2 else np.array([speed(peclet)])
     on_circle = float(LAW.conductances(np.array([A]), (still, still), hottest=True)[0][0])

@@ -48,8 +48,8 @@ def test_microroughness_is_not_flattened() -> None:
     assert peaks.rigid == approx(GAUSSIAN * np.hypot(4e-9, 16e-9), rel=0.02)
 
 
-@pytest.mark.parametrize("name", ["azam_case_a", "fzg_flank"])
-@pytest.mark.parametrize("deformed", [False, True])
+@pytest.mark.parametrize("name", ["azam_case_a", pytest.param("fzg_flank", marks=pytest.mark.long)])
+@pytest.mark.parametrize("deformed", [False, pytest.param(True, marks=pytest.mark.long)])
 def test_the_minimum_film_is_as_high_as_the_peaks_at_the_speed_of_one(name: str, deformed: bool) -> None:
     scene = contact(name)
     peaks = Peaks(scene)

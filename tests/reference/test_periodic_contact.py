@@ -49,7 +49,7 @@ def test_a_soft_body_bears_its_hardness_where_it_touches():
     assert found.planes == approx(1.2816, abs=0.03)
 
 
-@pytest.mark.parametrize("band", [Band(4), Band(4, 0.8), Band(16, 0.8)])
+@pytest.mark.parametrize("band", [Band(4), Band(4, 0.8), pytest.param(Band(16, 0.8), marks=pytest.mark.long)])
 def test_a_surface_has_the_rms_height_and_slope_of_its_spectrum_on_every_grid(band):
     nodes = 4 * band.breadth * band.longest
     heights = band.heights(nodes, 5)

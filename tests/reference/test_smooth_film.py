@@ -1,6 +1,7 @@
 """Smooth film: equations satisfied, order of the grid error, the formula of Nijenbanning, Venner and Moes."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -44,6 +45,7 @@ def limit_of(films):
     return films[-1] + (films[-1] - films[-2]) / 3.0
 
 
+@cache
 def on_grids(flux, load, speed):
     """Central films on 33, 65 and 129 nodes."""
     films = []
@@ -108,9 +110,9 @@ def test_a_smooth_film_is_symmetric_across_the_entrainment():
     ("flux", "points", "film", "near", "resolved"),
     [
         ("fitted", 129, 14.36e-9, 0.01, True),
-        ("fitted", 65, 14.36e-9, 0.05, False),  # less than a node across the inlet
+        pytest.param("fitted", 65, 14.36e-9, 0.05, False, marks=pytest.mark.long),  # less than a node across the inlet
         ("upwind", 129, 8.0e-9, 0.1, False),  # 1.2 nodes of the 3 that it needs
-        ("upwind", 257, 12.5e-9, 0.05, True),
+        pytest.param("upwind", 257, 12.5e-9, 0.05, True, marks=pytest.mark.long),
     ],
 )
 def test_case_a_has_its_film_on_129_nodes_if_flow_is_fitted_and_half_of_it_if_not(flux, points, film, near, resolved):

@@ -35,7 +35,7 @@ def test_a_cylinder_is_opposed_by_the_pressure_of_reynolds_equation():
     assert squeeze_line(speed, GAP, radius, ETA) == approx(force, rel=1e-6)
 
 
-@pytest.mark.parametrize("radius_y", [0.003, 0.05])
+@pytest.mark.parametrize("radius_y", [0.003, pytest.param(0.05, marks=pytest.mark.long)])
 def test_an_ellipsoid_meets_reynolds_equation_in_two_dimensions(radius_y):
     """The pressure behind the formula, F h_0 / (2 pi sqrt(R_x R_y) h^2), has the divergence of the displaced oil."""
     radius_x, speed = 0.01, 1e-5

@@ -39,7 +39,8 @@ def contact(load, material, nodes, **changes):
 
 
 LOADS = pytest.mark.parametrize(
-    ("load", "material"), [(100.0, 10.0), pytest.param(1000.0, 10.0, marks=pytest.mark.long), (400.0, 5.0)]
+    ("load", "material"),
+    [(100.0, 10.0), *(pytest.param(*each, marks=pytest.mark.long) for each in ((1000.0, 10.0), (400.0, 5.0)))],
 )
 
 
@@ -54,7 +55,7 @@ def test_a_supply_film_starves_the_contact_as_chevalier_and_others_found(load, m
     now, grid, _ = contact(load, material, 129, conserving=True)
     flooded, found = centre(now, grid)
     density = float(now.density(found.state.pressure.max()))
-    for r in (0.25, 0.5, 1.0, 2.0, 5.0):
+    for r in (0.25, 1.0, 5.0):
         supply = r * density * flooded
         starved, _ = centre(replace(now, supply=supply), grid)
         assert starved == approx(supplied_film(flooded, supply, density), rel=0.05)

@@ -163,7 +163,12 @@ def bair(slide_to_roll, film, stress, power):
 
 
 @pytest.mark.parametrize(
-    ("stress", "power", "slide_to_roll"), [(3e5, 0.5, 0.0), (1e5, 0.5, 0.0), (3e4, 0.7, 0.0), (3e4, 0.7, 1.0)]
+    ("stress", "power", "slide_to_roll"),
+    [
+        (3e5, 0.5, 0.0),
+        *(pytest.param(*each, marks=pytest.mark.long) for each in ((1e5, 0.5, 0.0), (3e4, 0.7, 0.0))),
+        (3e4, 0.7, 1.0),
+    ],
 )
 def test_films_of_carreau_oils_are_those_of_bairs_formula_within_a_tenth(stress, power, slide_to_roll):
     heights, _ = films(Carreau(stress, power), slide_to_roll)
@@ -206,6 +211,7 @@ def inlet_film(stress, slide_to_roll):
     return film
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("slide_to_roll", [0.0, 1.0])
 def test_films_of_an_eyring_oil_thin_about_as_the_inlet_on_the_middle_row_does(slide_to_roll):
     """Within what Grubin's inlet leaves out: sides, and pressures that end at the edge of Hertz's contact."""

@@ -51,18 +51,18 @@ def rough_ball(accuracy=None, nodes=65, speed=0.25, **more):
 FINER = {
     "ball": (
         lambda **more: point_contact(**(BALL | THIN), **more),
-        lambda: point_contact(**(BALL | THIN), grid=385, tolerance=1e-4),
+        lambda: point_contact(**(BALL | THIN), grid=257, tolerance=1e-4),
     ),
     "line": (
         lambda **more: line_contact(**FLANK, **more),
         lambda: line_contact(**FLANK, grid=2049, tolerance=1e-4),
     ),
-    "rough ball": (rough_ball, lambda: rough_ball(nodes=257)),
+    "rough ball": (rough_ball, lambda: rough_ball(nodes=193)),
     "rough ball in contact": (
         lambda **more: rough_ball(speed=1e-4, **more),
-        lambda: rough_ball(speed=1e-4, nodes=257),
+        lambda: rough_ball(speed=1e-4, nodes=193),
     ),
-    "rough line": (rough_line, lambda: rough_line(nodes=1025)),
+    "rough line": (rough_line, lambda: rough_line(nodes=513)),
 }
 
 

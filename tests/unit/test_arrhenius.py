@@ -205,15 +205,15 @@ def test_a_range_of_one_temperature_has_the_thickness_of_its_start():
     assert law.largest(300.0) == law.largest(400.0) == WARMING.full_thickness_from
 
 
-@pytest.mark.parametrize("level", ["regression", "deterministic"])
+@pytest.mark.parametrize("level", ["regression", pytest.param("deterministic", marks=pytest.mark.long)])
 def test_a_warmer_rig_grows_a_film_faster_at_both_levels(level):
     grown = []
-    for celsius in (60, 72, 80, 100):
+    for celsius in (60, 80, 100):
         scene, _, op = cheap(CHEAP | {"tribofilm.set": "zddp_60_100c", "operation.temperature": f"{celsius} degC"})
         scene = scene if level == "deterministic" else scene.at_level("regression")
         grown.append(advance(scene, op, initial_state(scene), 10.0)[1].tribofilm_1)
     assert np.all(np.diff(grown) > 0.0)
-    assert grown[3] > 2.0 * grown[0]
+    assert grown[2] > 2.0 * grown[0]
 
 
 PATH = Path(contact_core.__file__).parent / "data" / "tribofilms.toml"

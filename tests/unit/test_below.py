@@ -283,6 +283,7 @@ def test_damage_under_constant_cycles_is_their_number_times_that_of_one():
         assert last.below.errors(body) == approx(once.errors(body), rel=1e-12)
 
 
+@pytest.mark.long
 def test_wear_takes_damage_away():
     gone = [run(TIRED, 30.0, 30.0, wear__bare=bare)[2][-1] for bare in ("1e-9", "3e-4")]
     (_, kept), (_, worn) = gone
@@ -410,6 +411,7 @@ def test_damage_stays_within_its_stated_error_when_blocks_are_half_as_long():
         assert abs(one - other) < stated
 
 
+@pytest.mark.long
 def test_the_error_by_few_instants_covers_what_many_find_and_a_tenth_of_it_would_not():
     def after(instants):
         given = {"stress__instants": instants, "control__dry_instants": instants, "control__longest": "20 s"}

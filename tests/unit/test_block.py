@@ -17,7 +17,7 @@ from contact_core.surfaces.patches import patch_nodes
 DRY = CHEAP | {"control.driver": "dry"}
 
 
-@pytest.mark.parametrize("points", [33, 36, 65])
+@pytest.mark.parametrize("points", [33, 36, pytest.param(65, marks=pytest.mark.long)])
 def test_dry_instants_let_every_two_points_meet_once_before_any_meet_again(points):
     scene, state, op = cheap(film__points=points, surface_1__rq="0 nm", surface_2__rq="0 nm", control__dry_instants=1)
     met, first = [], []
@@ -67,7 +67,7 @@ def test_solids_of_a_dry_contact_under_oil_carry_their_share(share, floor, near)
 
 def test_dry_contact_under_oil_touches_and_rubs_like_the_mixed_one_and_not_like_the_dry_one():
     """Blocks above control.dry_above rest on this claim; shipped scenes: docs/measured/surfaces/evolution.md."""
-    scene, state, op = cheap(film__points=65, control__mixed_instants=32, control__dry_instants=16)
+    scene, state, op = cheap(control__mixed_instants=12, control__dry_instants=8)
     slow = replace(op, speed_1=0.1 * op.speed_1, speed_2=0.1 * op.speed_2)
     mixed = Accumulator.before(state)
     sample_mixed(Case(scene, slow), state, mixed, False)
@@ -138,6 +138,7 @@ def test_a_dry_block_says_how_many_of_the_mixed_solutions_it_relies_on_have_not_
         assert RangeFlag.NOT_CONVERGED in RangeFlag(outputs.range_flags)
 
 
+@pytest.mark.long
 def test_a_march_is_settled_before_it_is_sampled_however_far_the_faster_body_runs_ahead():
     smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none"} | HARD
     scene, state, point = cheap(CHEAP | smooth, film__points=97)
@@ -176,7 +177,7 @@ def test_a_body_at_rest_is_exposed_all_the_time_by_the_contact_length_as_by_the_
     films = []
     for dose in ("clock", "contact_length"):
         scene = cheap(DRY | smooth, tribofilm__dose=dose)[0].at_level(level)
-        _, outputs = advance(scene, replace(scene.operation.point, speed_1=0.0), initial_state(scene), 60.0)
+        _, outputs = advance(scene, replace(scene.operation.point, speed_1=0.0), initial_state(scene), 20.0)
         films.append(outputs.tribofilm_1)
     assert films[0] > 0.0
     assert films[1] == approx(films[0], rel=2e-2)  # the other body grows by another dose

@@ -61,7 +61,7 @@ def marched(scene, state, op, steps=100):
 
 @pytest.mark.parametrize(  # fitted flow holds a film at a hundredth of the speed
     ("flux", "speed"),
-    [("fitted", 0.005), ("fitted", 0.04), ("upwind", 0.25), ("upwind", 4.0)],
+    [pytest.param("fitted", 0.005, marks=pytest.mark.long), ("fitted", 0.04), ("upwind", 0.25), ("upwind", 4.0)],
 )
 def test_fluid_and_solids_satisfy_the_equations_written_independently(flux, speed):
     scene, state = rough(ROUGH | HARD, film__flux=flux, film__tolerance=2e-4)
@@ -120,7 +120,7 @@ def test_a_film_is_squeezed_out_until_the_contact_is_dry():
     assert solid_share(fields) > 0.95
 
 
-@pytest.mark.parametrize("speed", [0.25, 4.0])
+@pytest.mark.parametrize("speed", [pytest.param(0.25, marks=pytest.mark.long), 4.0])
 def test_a_thick_film_settles_to_the_answer_that_a_dry_start_finds(speed):
     scene, state = rough()
     op = at(scene, speed)

@@ -54,7 +54,7 @@ def test_a_longer_track_grows_its_film_slower_by_time_in_contact_and_as_fast_by_
     assert by_clock == approx([1.0, 1.0], rel=1e-6)
 
 
-@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("level", [pytest.param("deterministic", marks=pytest.mark.long), "regression"])
 def test_contacts_alone_grow_nothing_under_a_full_film_which_shear_does(level):
     smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"} | HARD
     point = replace(cheap()[0].operation.point, speed_1=6.0, speed_2=4.0)
@@ -86,7 +86,8 @@ def test_the_supply_of_additive_bounds_every_point_s_growth():
     assert 0.99 * SECONDS * 2e-11 < most <= SECONDS * 2e-11
 
 
-@pytest.mark.parametrize("name", ["mtm_zddp", pytest.param("azam_case_a", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["mtm_zddp", "azam_case_a"])
 def test_the_shipped_shares_are_those_of_the_balls_at_the_start(name):
     scene = Scene.from_toml(name, {"film.points": "65"})
     law, point = scene.tribofilm, scene.operation.point

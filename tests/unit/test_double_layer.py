@@ -97,6 +97,7 @@ def test_a_march_carries_the_apparent_viscosity_along():
     assert fields.gap[middle, middle] == approx(steady.gap[middle, middle], rel=0.03)
 
 
+@pytest.mark.long
 def test_blocks_of_rough_charged_surfaces_run():
     scene, state, op = cheap(control__mixed_instants=2, **{key.replace(".", "__"): v for key, v in CHARGED.items()})
     _, outputs = advance(scene, op, state, 30.0)

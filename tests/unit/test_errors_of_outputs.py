@@ -106,6 +106,7 @@ def test_where_oil_and_solids_rub_alike_the_error_of_friction_is_that_of_the_oil
     assert found["friction_force"].grid / 1.0 == approx(found["h_c"].grid / 1e-7, rel=1e-9)
 
 
+@pytest.mark.long
 def test_a_finer_grid_states_a_smaller_error():
     coarse, fine = (cheap(film__points=points) for points in ("33", "65"))
     assert fine[2].error_film < coarse[2].error_film

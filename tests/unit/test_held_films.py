@@ -32,7 +32,9 @@ def first_algorithms(monkeypatch):
 
 
 @pytest.mark.usefixtures("first_algorithms")
-@pytest.mark.parametrize("point", [OIL_UNDER_CONTACTS, NODES_AT_THE_FLOOR, POCKETS])
+@pytest.mark.parametrize(
+    "point", [*(pytest.param(p, marks=pytest.mark.long) for p in (OIL_UNDER_CONTACTS, NODES_AT_THE_FLOOR)), POCKETS]
+)
 def test_a_film_near_the_floor_converges_and_passes_an_independent_check(point):
     given = point.arguments(NODES)
     found = point_contact(**given, tolerance=TOLERANCE, floor=FLOOR)

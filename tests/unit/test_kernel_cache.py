@@ -61,6 +61,7 @@ def test_a_folder_that_others_can_write_is_not_taken(read_only: Path, tmp_path: 
     assert not any(open_to_some.iterdir())
 
 
+@pytest.mark.long
 def test_a_place_that_the_user_has_chosen_stands(read_only: Path, tmp_path: Path) -> None:
     (tmp_path / "own").mkdir()
     said, warned = imported(read_only, tmp_path, NUMBA_CACHE_DIR=str(tmp_path / "own"))

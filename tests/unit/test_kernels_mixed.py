@@ -30,7 +30,7 @@ def difference(one, other):
     return float(np.abs(one.iterate.pressure - other.iterate.pressure).sum() / one.iterate.pressure.sum())
 
 
-@pytest.mark.parametrize(("wave", "bound"), [(0.5 * WAVE, 1e-3), (WAVE, 5e-3)])
+@pytest.mark.parametrize(("wave", "bound"), [(0.5 * WAVE, 1e-3), pytest.param(WAVE, 5e-3, marks=pytest.mark.long)])
 def test_a_steady_film_does_not_depend_on_its_start(wave, bound):
     case, smooth, half_space = problem(N, N, wave, mobility=HEAVY)
     found = [
@@ -116,7 +116,7 @@ def test_the_lumped_criterion_has_one_pressure_and_holds_solids_at_the_floor():
     assert it.solid.sum() > 1.2 * split.iterate.solid.sum()
 
 
-@pytest.mark.parametrize(("wave", "cap"), [(0.02, 1.2), (0.03, 1.5)])
+@pytest.mark.parametrize(("wave", "cap"), [(0.02, 1.2), pytest.param(0.03, 1.5, marks=pytest.mark.long)])
 @pytest.mark.parametrize("solve", [solve_mixed, solve_newton])
 def test_oil_that_presses_the_solids_in_settles_as_by_newtons_method(wave, cap, solve):
     """Newton's method has sets of its own: a node at the cap that gains mass is no unknown."""
@@ -140,7 +140,7 @@ def test_oil_that_presses_the_solids_in_settles_as_by_newtons_method(wave, cap, 
 
 
 @pytest.mark.parametrize("solve", [solve_mixed, solve_newton])
-@pytest.mark.parametrize("cap", [1.02, 1.2])
+@pytest.mark.parametrize("cap", [1.02, pytest.param(1.2, marks=pytest.mark.long)])
 def test_what_is_called_converged_carries_the_load_however_coarse_the_tolerance(solve, cap):
     """Of bodies that yield: a step that is cut at the hardness lacks what it cuts."""
     converged = 0

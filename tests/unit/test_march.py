@@ -105,7 +105,7 @@ def test_a_film_too_wide_for_the_grid_opens_the_contact_and_says_so():
     assert "enlarge the domain" in moment.fields.shortfall
 
 
-@pytest.mark.parametrize("factor", [0.1, 10.0])
+@pytest.mark.parametrize("factor", [pytest.param(0.1, marks=pytest.mark.long), 10.0])
 def test_a_jump_of_the_load_by_ten_is_followed(factor):
     scene, state, op = cheap(**SMOOTH, film__tolerance="1e-3", film__iterations=500)
     op = replace(op, load=15.0, speed_1=2.0, speed_2=2.0)

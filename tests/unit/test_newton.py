@@ -123,7 +123,7 @@ def check(problem, found):
     assert cavity < 2e-3 * max(mean, float(np.median(gap[wet])))  # against what enters over the width of the contact
 
 
-@pytest.mark.parametrize("load", [0.05, 0.3])
+@pytest.mark.parametrize("load", [0.05, pytest.param(0.3, marks=pytest.mark.long)])
 def test_the_film_of_the_rigid_isoviscous_ball_is_kapitzas(load):
     """On 14 b: what the far field leaves out is 1.3 % of the film on 7 b and 0.5 % here."""
     case = contact(load, 1e-9, points=129, wide=2.0)

@@ -55,9 +55,9 @@ def net_inflow(problem, found):
 
 CASES = [  # method, load, oil, rms roughness over the film of the formula
     ("newton", 5.0, 5.0, 0.4),
-    ("newton", 5.0, 5.0, 1.5),
+    pytest.param("newton", 5.0, 5.0, 1.5, marks=pytest.mark.long),
     ("hybrid", 200.0, 10.0, 0.3),
-    ("hybrid", 200.0, 10.0, 4.0),
+    pytest.param("hybrid", 200.0, 10.0, 4.0, marks=pytest.mark.long),
 ]
 DEEPER = ("hybrid", 200.0, 10.0, 2.0)  # solids at the floor's edge
 

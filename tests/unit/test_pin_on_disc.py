@@ -62,6 +62,7 @@ def test_the_scar_is_the_cap_of_its_volume_under_an_even_pressure(hour):
     assert volume_of_scar(a, scene, load) == approx(rows[-1].wear_volume_1, rel=0.06)
 
 
+@pytest.mark.long
 def test_bodies_of_one_wear_coefficient_lose_archards_volume_of_the_load_that_solids_carry():
     scene = Scene.from_toml("pin_on_disc", COARSE | {"tribofilm.model": "none", "control.dry_above": "0"})
     state, op, expected, before = initial_state(scene), scene.operation.point, 0.0, None

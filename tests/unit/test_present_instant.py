@@ -61,7 +61,7 @@ def test_of_other_inputs_than_those_of_the_block_it_is_a_steady_one(change: dict
     assert fields.pressure.sum() * cell == approx(other.load, rel=0.01)
 
 
-@pytest.mark.parametrize("driver", ["auto", "mixed", "dry"])
+@pytest.mark.parametrize("driver", [pytest.param("auto", marks=pytest.mark.long), "mixed", "dry"])
 def test_a_run_does_not_notice_it(driver: str) -> None:
     scene, op, state = rubbed(control__driver=driver)
     stored = state.to_bytes()

@@ -42,7 +42,9 @@ def test_a_solution_at_given_radii_is_that_of_a_scene_with_these_radii(radii, ch
     assert given.film.rigid_gap == own.film.rigid_gap != solve(scene, op, fresh).film.rigid_gap
 
 
-@pytest.mark.parametrize("radii", RADII)
+@pytest.mark.parametrize(
+    "radii", [RADII[1], *(pytest.param(each, marks=pytest.mark.long) for each in (RADII[0], RADII[2]))]
+)
 @pytest.mark.parametrize("level", LEVELS)
 def test_the_contacts_outputs_are_those_of_a_scene_with_these_radii(level, radii):
     scene, fresh, op = at_level(level, CHEAP | {"heat.inlet_shear": "gupta"})
@@ -85,7 +87,7 @@ def test_the_scenes_own_radii_are_as_good_as_none(level):
     scene, fresh, op = at_level(level)
     named = at(op, *scene.radii(scene.operation.point))
     one, other = fresh, fresh
-    for dt, load in ((0.0, 70.0), (5.0, 70.0), (5.0, 40.0)):
+    for dt, load in ((0.0, 70.0), (5.0, 70.0)):
         one, said = advance(scene, replace(op, load=load), one, dt)
         other, again = advance(scene, replace(named, load=load), other, dt)
         assert said == again
@@ -95,7 +97,7 @@ def test_the_scenes_own_radii_are_as_good_as_none(level):
 @pytest.mark.parametrize("level", LEVELS)
 def test_a_state_alone_decides_what_follows_however_radii_change(level):
     scene, fresh, op = at_level(level)
-    points = [at(op, radius) for radius in (6e-3, 10e-3, 7e-3)]
+    points = [at(op, radius) for radius in (6e-3, 10e-3)]
     saved, _ = advance(scene, points[0], fresh, 1.0)
     data = saved.to_bytes()
     first = [advance(scene, point, saved, 5.0) for point in points]
@@ -103,22 +105,20 @@ def test_a_state_alone_decides_what_follows_however_radii_change(level):
     for (state, outputs), (again, outputs_again) in zip(first, reversed(second), strict=True):
         assert outputs == outputs_again
         assert state.to_bytes() == again.to_bytes()
-    assert len({outputs.approach for _, outputs in first}) == 3
+    assert len({outputs.approach for _, outputs in first}) == 2
 
 
 def test_a_contact_is_solved_again_when_radii_have_changed_by_more_than_the_scene_tolerates():
-    scene, fresh, op = cheap()
-    tolerated = scene.control.input_change
-    state, before = advance(scene, op, fresh, 0.0)
-    for name, radius in zip(("radius_x", "radius_y"), scene.radii(scene.operation.point), strict=True):
-        for factor in (1.0 + 0.9 * tolerated, 1.0 - 0.9 * tolerated):
-            assert advance(scene, replace(op, **{name: factor * radius}), state, 0.0)[1] == before
-        for factor in (1.0 + 1.1 * tolerated, 1.0 - 1.1 * tolerated):
-            after = advance(scene, replace(op, **{name: factor * radius}), state, 0.0)[1]
-            assert after.blocks_mixed == before.blocks_mixed + 1.0
+    scene, state, op = settled()
+    tolerated, before = scene.control.input_change, state.outputs
+    radius = scene.geometry.radius_x
+    for name, change in (("radius_x", tolerated), ("radius_y", -tolerated)):
+        little, more = (replace(op, **{name: (1.0 + part * change) * radius}) for part in (0.9, 1.1))
+        assert advance(scene, little, state, 0.0)[1] == before
+        assert advance(scene, more, state, 0.0)[1].blocks_mixed == before.blocks_mixed + 1.0
 
 
-@pytest.mark.parametrize("factor", [0.4, 1.2])
+@pytest.mark.parametrize("factor", [0.4, pytest.param(1.2, marks=pytest.mark.long)])
 def test_the_march_goes_on_through_a_jump_of_the_radii(factor):
     scene, state, op = settled()
     radii = (factor * radius for radius in scene.radii(scene.operation.point))

@@ -46,7 +46,7 @@ def volume_of_scar(a, scene, load):
     return 0.25 * np.pi * a**4 / scene.geometry.radius_x - bent
 
 
-@pytest.mark.parametrize("resting", [0, 1])
+@pytest.mark.parametrize("resting", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_an_hour_wears_archards_volume_off_a_pin_and_the_scar_of_an_even_pressure(resting):
     scene, state, op = cheap(PIN)
     state, outputs = slid(scene, state, op, [3600.0], resting)
@@ -62,7 +62,9 @@ def test_an_hour_wears_archards_volume_off_a_pin_and_the_scar_of_an_even_pressur
     assert blocks(outputs) < 60
 
 
-@pytest.mark.parametrize(("steps", "change"), [([60.0] * 20, "3 nm"), ([1200.0], "1 nm")])
+@pytest.mark.parametrize(
+    ("steps", "change"), [([60.0] * 20, "3 nm"), pytest.param([1200.0], "1 nm", marks=pytest.mark.long)]
+)
 def test_the_scar_depends_neither_on_the_callers_steps_nor_on_those_of_blocks(steps, change):
     scene, state, op = cheap(PIN)
     whole = slid(scene, state, op, [1200.0])[0].bodies[0].wear
@@ -94,6 +96,7 @@ def test_the_roughness_of_a_pin_is_worn_off_in_its_scar():
     assert float(shape[inside].std()) < 10e-9
 
 
+@pytest.mark.long
 def test_a_minute_of_a_lubricated_pin_asks_for_few_blocks_and_no_shorter_ones():
     scene, state, op = cheap()
     _, outputs = slid(scene, state, op, [60.0])

@@ -1,5 +1,7 @@
 """Lubricated rollers with ends: every profile is solved, and says where its ends touch."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from comparison import approx
@@ -10,6 +12,7 @@ E, LENGTH, RADIUS = 230e9, 3e-3, 10e-3
 OIL = {"viscosity": 0.05, "pressure_viscosity": 2e-8}
 
 
+@cache
 def roller(profile, load=3e5, speed=5.0, nx=65, **more):
     return line_contact(
         load=load, radius=RADIUS, reduced_modulus=E, speed_1=speed, speed_2=speed, length=LENGTH, profile=profile,
@@ -21,9 +24,16 @@ def middle(found):
     return int(np.abs(found.y).argmin())
 
 
-@pytest.mark.parametrize("load", [5e4, 8e5])
+@pytest.mark.parametrize("load", [5e4, pytest.param(8e5, marks=pytest.mark.long)])
 @pytest.mark.parametrize(
-    "profile", [Logarithmic(3e-6), Rounded(2.2e-3, 0.02), Rounded(2.2e-3, 1.0), Rounded(0.0, 1.0)], ids=str
+    "profile",
+    [
+        Logarithmic(3e-6),
+        pytest.param(Rounded(2.2e-3, 0.02), marks=pytest.mark.long),
+        Rounded(2.2e-3, 1.0),
+        pytest.param(Rounded(0.0, 1.0), marks=pytest.mark.long),
+    ],
+    ids=str,
 )
 def test_light_and_heavy_rollers_of_any_ends_are_solved_and_only_ends_touch(profile, load):
     found = roller(profile, load)

@@ -59,21 +59,20 @@ MIXED = {"control.driver": "mixed", "control.mixed_instants": "2"}
 @pytest.mark.parametrize(
     ("level", "changes"),
     [
-        ("deterministic", HALF_DRY),
-        ("deterministic", HALF_DRY | FIELD),
-        ("deterministic", {"control.driver": "dry"}),
-        ("deterministic", MIXED),
-        ("regression", {}),
-        ("regression", FIELD),
-        ("auto", HALF_DRY),
+        pytest.param("deterministic", HALF_DRY, id="half_dry", marks=pytest.mark.long),
+        pytest.param("deterministic", HALF_DRY | FIELD, id="field"),
+        pytest.param("deterministic", {"control.driver": "dry"}, id="dry"),
+        pytest.param("deterministic", MIXED, id="mixed", marks=pytest.mark.long),
+        pytest.param("regression", {}, id="regression"),
+        pytest.param("regression", FIELD, id="regression_field"),
+        pytest.param("auto", HALF_DRY, id="auto", marks=pytest.mark.long),
     ],
-    ids=["half_dry", "field", "dry", "mixed", "regression", "regression_field", "auto"],
 )
 def test_every_row_of_a_changing_duty_adds_up_and_opposes_the_sliding(level, changes):
     scene, state, op = cheap(COARSE | {"tribofilm.beyond_fit": "extrapolate"} | changes)
     scene, equal = scene.at_level(level), "heat.model" not in changes
     for now in points(op):
-        for dt in (0.0, 2.0):
+        for dt in (0.0, 0.5):
             state, outputs = advance(scene, now, state, dt)
             checked(now, outputs, equal_bodies=equal)
 
@@ -94,14 +93,14 @@ def test_friction_of_the_oil_neither_turns_nor_drops_where_blocks_turn_dry():
     scene, state, op = cheap(CHEAP | HALF_DRY | {"tribofilm.model": "none", "control.longest": "20 s"})
     state, outputs = advance(scene, op, state, 0.0)
     counts, fluid = [], []
-    for _ in range(20):
+    for _ in range(12):
         state, outputs = advance(scene, op, state, 20.0)
         checked(op, outputs)
         counts.append((outputs.blocks_mixed, outputs.blocks_dry))
         fluid.append(outputs.friction_fluid)
     assert outputs.blocks_dry > 5
     only, fresh, _ = cheap(CHEAP | HALF_DRY | {"tribofilm.model": "none", "control.driver": "mixed"})
-    _, mixed = advance(only, op, fresh, 400.0)
+    _, mixed = advance(only, op, fresh, 240.0)
     share = (1.0 - outputs.contact_load_ratio) / (1.0 - mixed.contact_load_ratio)
     assert fluid[-1] == approx(share * mixed.friction_fluid, rel=0.3)
     assert max(fluid) < 2.0 * min(fluid)

@@ -62,7 +62,7 @@ def test_the_hottest_nodes_are_those_of_the_warmer_surface_at_each():
     assert Temperatures(350.0, 360.0, 0.0, 0.0, 0.0, 0.0, True).hottest(7) == 360.0
 
 
-@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("level", ["regression", pytest.param("deterministic", marks=pytest.mark.long)])
 def test_the_flag_is_raised_exactly_where_the_contact_is_hotter_than_critical(level):
     scene = scene_of(level, **{"control.mixed_instants": "1"})  # of several, any one may be hotter than their mean
     without = told(scene)

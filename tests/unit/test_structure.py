@@ -1,8 +1,9 @@
 """The measures of the code's structure: files, imports, arguments that belong together, classes asked for."""
 
 import ast
+import gc
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -26,6 +27,15 @@ def tree_of(file: Path) -> ast.Module:
     return ast.parse(file.read_text("utf-8"))
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _no_search_for_garbage() -> Iterator[None]:
+    """It would take most of the time: every tree is kept to the end."""
+    gc.disable()
+    yield
+    tree_of.cache_clear()
+    gc.enable()
+
+
 def imported(file: Path) -> set[str]:
     """Return the rooms of contact_core that a file of it imports, by their names."""
     found = set()
@@ -41,10 +51,9 @@ def imported(file: Path) -> set[str]:
 
 def statements(node: ast.AST) -> int:
     """Return the number of statements in a node: unlike lines, neither docstrings nor line breaks change it."""
-    docstrings = (ast.FunctionDef, ast.ClassDef, ast.Module)
-    inside = list(ast.walk(node))
-    return sum(isinstance(each, ast.stmt) for each in inside) - sum(
-        isinstance(each, docstrings) and ast.get_docstring(each) is not None for each in inside
+    inside = [each for each in ast.walk(node) if isinstance(each, ast.stmt)]
+    return len(inside) - sum(
+        isinstance(each, (ast.FunctionDef, ast.ClassDef)) and ast.get_docstring(each) is not None for each in inside
     )
 
 

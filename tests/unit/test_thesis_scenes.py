@@ -50,7 +50,7 @@ def test_a_scene_of_the_thesis_has_the_contact_of_the_shipped_one(shipped, name)
 
 @cache
 def first_minutes(srr: float) -> list[Outputs]:
-    """Case A at a slide-to-roll ratio: outputs at the start and after 1 to 5 min, on 33 nodes, white on them."""
+    """Case A at a slide-to-roll ratio: outputs at the start and after 1 to 3 min, on 33 nodes, white on them."""
     coarse = {
         "film.points": "33",
         "surface_1.correlation_length": "15.625 um",
@@ -60,7 +60,7 @@ def first_minutes(srr: float) -> list[Outputs]:
     scene = Scene.from_toml("azam_case_a_thesis", coarse | speeds)
     state, out = advance(scene, scene.operation.point, initial_state(scene), 0.0)
     rows = [out]
-    for _ in range(5):
+    for _ in range(3):
         state, out = advance(scene, scene.operation.point, state, 60.0)
         rows.append(out)
     return rows

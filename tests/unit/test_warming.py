@@ -11,7 +11,13 @@ import pytest
 from contact_core import ConvergenceError, Scene, advance, initial_state, warm_up
 
 SMALL = {"film.points": "33", "surface_1.correlation_length": "16 um", "surface_2.correlation_length": "16 um"}
-ROLLING = {"operation.speed_1": "0.45 m/s", "operation.speed_2": "0.45 m/s"}
+ROLLING = {
+    "operation.speed_1": "0.45 m/s",
+    "operation.speed_2": "0.45 m/s",
+    "heat": "field",
+    "lubricant.flow": "local",
+    "film.fft": "scipy",
+}
 AT_REST = {"operation.speed_1": "0 m/s", "operation.speed_2": "0 m/s"}
 
 _PROCESS = """
@@ -57,10 +63,9 @@ def _run(name: str, **changes: str) -> tuple[list[int], list[str], list[str], li
 @pytest.mark.parametrize(
     ("name", "changes"),
     [
-        ("mtm_zddp", {}),
-        ("mtm_zddp", AT_REST),
-        ("mtm_zddp", ROLLING | {"heat": "field", "lubricant.flow": "local", "film.fft": "scipy"}),
-        ("azam_case_a", {"surface_1.rq": "1 nm", "surface_2.rq": "1 nm"}),
+        pytest.param("mtm_zddp", {}, marks=pytest.mark.long),
+        ("mtm_zddp", ROLLING),
+        ("azam_case_a", AT_REST | {"surface_1.rq": "1 nm", "surface_2.rq": "1 nm"}),
     ],
 )
 def test_the_first_steps_find_every_kernel_and_module_loaded(name, changes):
@@ -78,7 +83,7 @@ def test_the_regression_level_is_warm_without_a_kernel():
 
 @pytest.mark.skipif(sys.platform != "linux", reason="threads are counted in /proc")
 def test_no_thread_is_started():
-    (before, after), *_ = _run("mtm_zddp", **SMALL)
+    (before, after), *_ = _run("mtm_zddp", **SMALL | ROLLING)
     assert before == after
 
 

@@ -217,13 +217,14 @@ def test_ten_times_the_wear_in_a_tenth_of_the_time_is_the_same_run():
     assert min(noise) > 0.0
 
 
+@pytest.mark.long
 def test_volumes_of_both_levels_differ_by_no_more_than_the_fast_one_says_and_by_more_than_a_tenth_of_it():
-    """Two minutes on a grid beyond the fit, at three speeds."""
+    """A minute on a grid beyond the fit, at two speeds."""
     scene, state, op = cheap(control__mixed_instants="4")
     ratios = []
-    for speed in (0.05, 0.12, 0.25):
+    for speed in (0.05, 0.25):
         now = replace(op, speed_1=0.99 * speed, speed_2=1.01 * speed)
-        solved, quick = (advance(scene.at_level(level), now, state, 120.0)[1] for level in LEVELS)
+        solved, quick = (advance(scene.at_level(level), now, state, 60.0)[1] for level in LEVELS)
         ratios.append(np.abs(of(solved, "wear_volume") / of(quick, "wear_volume") - 1.0) / quick.error_wear)
     assert np.max(ratios) <= 1.0
     assert np.max(ratios) > 0.1
