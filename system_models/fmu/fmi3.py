@@ -1,20 +1,20 @@
 """A running FMU of FMI 3.0."""
 
 import struct
-from ctypes import byref, c_bool, c_double
+from ctypes import byref, c_bool, c_double, c_float
 from math import isclose, nan
 from typing import Any, NamedTuple
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi3 import FMU3Slave, fmi3Discard
+from fmpy.fmi3 import FMU3Slave, fmi3Discard, fmi3ValueReference
 from fmpy.model_description import ModelVariable
 from numpy.typing import NDArray
 
 from ..numerics import hold
 from . import messages
 from .errors import CouplingError
-from .instance import Instance
+from .instance import Instance, Reals
 from .loading import load
 from .model import Model
 
@@ -26,6 +26,16 @@ class State(NamedTuple):
 
     memory: Any
     next_event: float | None
+
+
+class _Shared(NamedTuple):
+    """Variables of one type: where they stand among Reals, and the memory that the FMU reads and writes."""
+
+    type: str
+    places: NDArray[np.intp] | slice
+    references: Any
+    values: NDArray[Any]
+    buffer: Any
 
 
 class Fmi3Instance(Instance):
@@ -53,6 +63,7 @@ class Fmi3Instance(Instance):
         capabilities = self.model.capabilities
         within = [self.model.variables[name].intermediateUpdate for name in self.inputs.names]
         self.interpolates = capabilities.providesIntermediateUpdate and bool(within) and all(within)
+        self._set, self._got = (_shared(reals, self.model) for reals in (self.inputs, self.outputs))
         self._has_event_mode = bool(capabilities.hasEventMode)
         self._stepping = self._in_event_mode = False
         try:
@@ -114,13 +125,21 @@ class Fmi3Instance(Instance):
 
     def set_inputs(self) -> None:
         """Give the FMU the values of `inputs`."""
-        inputs = self.inputs
-        self._fmu.fmi3SetFloat64(self._component, inputs.references, inputs.count, inputs.buffer, inputs.count)
+        for part in self._set:
+            if part.values is not self.inputs.values:
+                part.values[:] = self.inputs.values[part.places]
+            count = len(part.values)
+            setter = getattr(self._fmu, f"fmi3Set{part.type}")
+            setter(self._component, part.references, count, part.buffer, count)
 
     def _get_outputs(self) -> None:
         self._end_event()
-        outputs = self.outputs
-        self._fmu.fmi3GetFloat64(self._component, outputs.references, outputs.count, outputs.buffer, outputs.count)
+        for part in self._got:
+            count = len(part.values)
+            getter = getattr(self._fmu, f"fmi3Get{part.type}")
+            getter(self._component, part.references, count, part.buffer, count)
+            if part.values is not self.outputs.values:
+                self.outputs.values[part.places] = part.values
 
     def _do_step(self, time: float, size: float) -> float:
         self.event = False
@@ -233,6 +252,21 @@ class Fmi3Instance(Instance):
     def free(self) -> None:
         """End the instance, whatever state it is in."""
         self._fmu.freeInstance()
+
+
+def _shared(reals: Reals, model: Model) -> list[_Shared]:
+    """Return the Reals by type: those of Float64 alone as they are, any other in memory of its own."""
+    types = [model.variables[name].type for name in reals.names]
+    if set(types) <= {"Float64"}:
+        return [_Shared("Float64", slice(None), reals.references, reals.values, reals.buffer)] if types else []
+    found = []
+    for name, of_c in (("Float64", c_double), ("Float32", c_float)):
+        places = np.flatnonzero([own == name for own in types])
+        values = np.zeros(len(places), of_c)
+        buffer = (of_c * len(places)).from_buffer(values.data)
+        references = (fmi3ValueReference * len(places))(*(reals.references[n] for n in places))
+        found.append(_Shared(name, places, references, values, buffer))
+    return [part for part in found if len(part.values)]
 
 
 def _access(variable: ModelVariable) -> str:

@@ -78,7 +78,7 @@ class Coupled:
         self.wiring = Wiring(system, self.instances)
         self.outputs = np.zeros(len(self.wiring.outputs))
         self.magnitudes = Magnitudes([system.port(name).nominal or 0.0 for name in self.wiring.outputs])
-        self.history = History(settings.order)
+        self.history = History(settings.order, self.wiring.sampled)
         self.iteration_tolerance = settings.converged
         self.time = 0.0
         self._blocks = blocks(system, self.instances, self.wiring.inputs, settings)

@@ -101,6 +101,12 @@ class Settings:
             raise CouplingError(f"controlled = {list(self.controlled)} must keep a tolerance. Give one as well.")
         if self.max_step is not None and self.tolerance is None:
             raise CouplingError(f"max_step = {self.max_step:g} s limits steps chosen by a tolerance. Give one as well.")
+        if self.horizon is not None and self.tolerance is None:
+            raise CouplingError(f"horizon = {self.horizon:g} s is that of a tolerance. Give one as well.")
+        if self.iteration_tolerance is not None and self.iterate is None:
+            raise CouplingError(
+                f"iteration_tolerance = {self.iteration_tolerance:g} is that of iterate. Give one as well."
+            )
 
         if self.points and self.tolerance is not None:
             raise CouplingError(f"tolerance = {self.tolerance:g} chooses the steps, and so do points. Leave one out.")

@@ -14,7 +14,7 @@ import xarray as xr
 from ..fmu.errors import CouplingError
 from ..fmu.instance import Instance
 from ..store.checkpoint import Checkpoint
-from . import saving
+from . import reach, saving
 from .controlled import ControlledStepper
 from .coupled import Coupled
 from .interrupt import deferred
@@ -67,6 +67,7 @@ def simulate(
     """
     settings = Settings(stop_time, step_size, **options)
     settings.check(system)
+    reach.check(settings, system)
     ports = system.outputs(outputs)
     with ExitStack() as exits:
         store = checkpoint if isinstance(checkpoint, Checkpoint) else None
@@ -152,7 +153,7 @@ def _warn_of_loops(system: System, settings: Settings) -> None:
 
 
 def _remember(coupled: Coupled, history: Mapping[str, Callable[[float], float]]) -> None:
-    coupled_outputs = {coupled.wiring.outputs[place] for place in coupled.wiring.coupled}
+    coupled_outputs = {coupled.wiring.outputs[place] for place in coupled.wiring.source}
     missing = sorted(coupled_outputs - set(history))
     if missing:
         raise CouplingError(
@@ -199,7 +200,8 @@ def _report(coupled: Coupled, statistics: Statistics) -> None:
 def _attributes(coupled: Coupled, stepper: Stepper) -> dict[str, Any]:
     instances = coupled.instances
     costs = {name: {"steps": each.steps, "seconds": each.seconds} for name, each in instances.items()}
-    receives_means = [each.name for each in instances.values() if each.inputs.count and not each.interpolates]
+    smooth = {name: not coupled.wiring.sampled[own].all() for name, own in coupled.wiring.input_of.items()}
+    receives_means = [name for name, each in instances.items() if smooth[name] and not each.interpolates]
     if not coupled.settings.order:
         receives_means = []
     return asdict(stepper.statistics) | {"receives_means": ", ".join(receives_means), "cost": json.dumps(costs)}

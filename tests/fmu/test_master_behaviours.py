@@ -172,9 +172,8 @@ def test_bounces_are_found_to_min_step(folder):
 
 def test_an_event_is_not_stepped_over_by_error_control(folder):
     fmus = {"teeth": build("tooth", folder, start={"period": 0.0301}), "mass": build("mass_1_force", folder)}
-    result = simulate(
-        System(fmus, events=["teeth.tooth"]), 0.2, 0.05, tolerance=1e-3, min_step=1e-8, outputs=["teeth.tooth"]
-    )
+    system = System(fmus | {"mm": build("millimetre", folder)}, [("mass.x", "mm.u")], events=["teeth.tooth"])
+    result = simulate(system, 0.2, 0.05, tolerance=1e-3, min_step=1e-8, outputs=["teeth.tooth"])
     found, expected = event_times(result, "teeth.tooth"), 0.0301 * np.arange(1, 7)
     assert len(found) == 6
     assert found == approx(expected, abs=2e-8)
