@@ -1,6 +1,7 @@
 """A system: FMUs, the connections between them, parameters and schedules."""
 
 import math
+import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -17,6 +18,8 @@ from ..fmu.model import Model
 from . import unit_checks
 
 Value = float | int | bool | str
+
+_OWN = ("master", "bond")  # before a dot, in names of columns
 
 
 @dataclass(frozen=True)
@@ -313,6 +316,12 @@ def _fmu_name(name: str) -> str:
         raise CouplingError(
             f"An FMU cannot be called '{name}': a dot separates it from its variables. Use another name."
         )
+    if name in _OWN:
+        raise CouplingError(
+            f"An FMU cannot be called '{name}': the results have columns '{name}.*' of their own. Use another name."
+        )
+    if any(unicodedata.category(letter) in ("Cc", "Cs") for letter in name):
+        raise CouplingError(f"An FMU cannot be called {name!r}: it has control characters. Use another name.")
     return name
 
 

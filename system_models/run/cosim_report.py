@@ -28,7 +28,7 @@ def table(dataset: xr.Dataset) -> str:
     rows = [["output", "unit", "start", "smallest", "largest", "end"]]
     for name in names[:_MOST_ROWS]:
         values = dataset[name].values
-        rows.append([name, dataset[name].attrs["units"], *map(_short, _range(values))])
+        rows.append([printable(name), dataset[name].attrs["units"], *map(_short, _range(values))])
     more = [f"... and {len(names) - _MOST_ROWS} more, in the files."] if len(names) > _MOST_ROWS else []
     return "\n".join([*aligned(rows, 2), *more])
 
@@ -39,7 +39,14 @@ def _range(values: NDArray[Any]) -> tuple[Any, ...]:
 
 
 def _short(value: object) -> str:
-    return f"{value:.6g}" if isinstance(value, (float, int)) and not isinstance(value, bool) else str(value)
+    if isinstance(value, (float, int)) and not isinstance(value, bool):
+        return f"{value:.6g}"
+    return printable(str(value))
+
+
+def printable(text: str) -> str:
+    """Return a text in one line, without characters that a terminal would obey."""
+    return "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in text)
 
 
 def costs(dataset: xr.Dataset) -> str:
@@ -103,7 +110,7 @@ def _events(dataset: xr.Dataset) -> list[str]:
 def _bonds(dataset: xr.Dataset) -> list[str]:
     bonds = [name for name in recorded(dataset) if name.startswith("bond.")]
     return [
-        f"Power residual at {name.removeprefix('bond.')}: "
+        f"Power residual at {printable(name.removeprefix('bond.'))}: "
         f"{float(np.abs(dataset[name]).max()):.3g} W at most, {float(np.abs(dataset[name]).mean()):.3g} W on average."
         for name in bonds
     ]
@@ -163,7 +170,7 @@ def overview(dataset: xr.Dataset) -> "Figure":
         axis.set_xlabel("time [s]")
         axis.tick_params(labelbottom=True)
     more = f", {len(shown) - _MOST_PANELS} more in the files" if len(shown) > _MOST_PANELS else ""
-    figure.suptitle(f"{dataset.attrs.get('title', '')}{more}", fontsize="medium")
+    figure.suptitle(printable(f"{dataset.attrs.get('title', '')}{more}"), fontsize="medium", parse_math=False)
     return figure
 
 
@@ -179,6 +186,6 @@ def _draw(axis: "Axes", variable: xr.DataArray) -> None:
     if kind == "b":
         axis.set(ylim=(-0.1, 1.1), yticks=(0.0, 1.0), yticklabels=("false", "true"))
     title = name.removeprefix("master.") + ("" if unit == "1" else f" [{unit}]")
-    axis.set_title(title, fontsize="medium", loc="left")
+    axis.set_title(printable(title), fontsize="medium", loc="left", parse_math=False)
     axis.margins(x=0.0)
     axis.spines[["top", "right"]].set_visible(False)
