@@ -59,6 +59,7 @@ def simulate(
     Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", statistics of each step;
     "bond.*", the difference between the powers that the two FMUs of a bond compute. Its attributes count steps,
     iterations, unconverged, below_min_step, events and stopped_early among the steps that stand, and those rejected;
+    invalid counts the rows in which one of the FMUs invalid_by, of tribofmu, says that it could not use its inputs;
     ended_by is the FMU that has asked for the end, receives_means those that take no derivatives of inputs, and `cost`
     gives, as JSON, all steps of each FMU and its seconds.
 
@@ -103,7 +104,8 @@ def simulate(
                 _save(store, coupled, recorder, stepper)
         _run(coupled, recorder, stepper, progress or (lambda time: None), observe, store, check_interrupt)
         _report(coupled, stepper.statistics)
-        return recorder.dataset(_attributes(coupled, stepper))
+        dataset = recorder.dataset(_attributes(coupled, stepper))
+        return dataset.assign_attrs(_verdicts(system, dataset))
 
 
 def _run(
@@ -205,3 +207,13 @@ def _attributes(coupled: Coupled, stepper: Stepper) -> dict[str, Any]:
     if not coupled.settings.order:
         receives_means = []
     return asdict(stepper.statistics) | {"receives_means": ", ".join(receives_means), "cost": json.dumps(costs)}
+
+
+def _verdicts(system: System, dataset: xr.Dataset) -> dict[str, Any]:
+    """Return what FMUs say of their answers, as attributes, and warn of those that are invalid."""
+    invalid = {name: ~dataset[column].values.astype(bool) for name, column in system.verdicts.items()}
+    by = ", ".join(name for name, rows in invalid.items() if rows.any())
+    count = int(np.logical_or.reduce([*invalid.values()]).sum()) if invalid else 0
+    if count:
+        log.warning("In %d of %d rows %s could not use the inputs.", count, dataset.sizes["time"], by)
+    return {"invalid": count, "invalid_by": by}

@@ -149,13 +149,18 @@ class System:
         return Port(model, model.variables[variable])
 
     def outputs(self, names: Iterable[str] | None) -> list[Port]:
-        """Return the variables to record: those named, or every output that is no text."""
+        """Return the variables to record: those named and verdicts of FMUs, or every output that is no text."""
         if isinstance(names, str):
             raise CouplingError(f"outputs = {names!r} is one name. Give a list of names.")
         if names is not None:
-            return [self._recorded(name) for name in dict.fromkeys(names)]
+            return [self._recorded(name) for name in dict.fromkeys([*names, *self.verdicts.values()])]
         every = (Port(m, v) for m in self.models.values() for v in m.variables.values() if v.causality == "output")
         return [port for port in every if port.kind in ("real", "integer", "boolean") and not port.variable.dimensions]
+
+    @property
+    def verdicts(self) -> dict[str, str]:
+        """The output of each FMU, where it has one, that says whether it could use its inputs."""
+        return {name: f"{name}.{m.verdict.name}" for name, m in self.models.items() if m.verdict is not None}
 
     def _recorded(self, name: str) -> Port:
         port = self.port(name)

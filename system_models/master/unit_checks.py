@@ -15,8 +15,9 @@ def conversion(
 ) -> tuple[float, float]:
     """Return the factor and offset that turn a value of `source` into the unit of `target`.
 
-    A variable without a unit gives and takes any. Raises CouplingError, the second half of a sentence, if the units
-    measure different things or cannot be compared.
+    A variable without a unit gives and takes any. A difference (FMI's relativeQuantity) is converted without an offset.
+    Raises CouplingError, the second half of a sentence, if the units measure different things or cannot be compared, or
+    if one is a difference, the other is not, and their units have an offset.
     """
     if source.unit is None or target.unit is None:
         return 1.0, 0.0
@@ -35,7 +36,13 @@ def conversion(
             "Connect variables of one quantity, or correct the unit in the FMU."
         )
     (_, factor, offset), (_, own_factor, own_offset) = here, there
-    return factor / own_factor, 0.0 if target.relativeQuantity else (offset - own_offset) / own_factor
+    if bool(source.relativeQuantity) != bool(target.relativeQuantity) and (offset or own_offset):
+        relative, absolute = (source, target) if source.relativeQuantity else (target, source)
+        raise CouplingError(
+            f"'{relative.name}' in {relative.unit} is a difference (relativeQuantity), '{absolute.name}' in "
+            f"{absolute.unit} is not. Connect variables of one meaning, or correct relativeQuantity in the FMU."
+        )
+    return factor / own_factor, 0.0 if source.relativeQuantity else (offset - own_offset) / own_factor
 
 
 def power(

@@ -77,6 +77,17 @@ def unreliable_steps(dataset: xr.Dataset) -> int:
     return int(dataset.attrs["unconverged"]) + int(dataset.attrs["below_min_step"])
 
 
+def validity(dataset: xr.Dataset) -> list[str]:
+    """Return a warning if FMUs could not use their inputs in some rows."""
+    counts = dataset.attrs
+    if not counts["invalid"]:
+        return []
+    return [
+        f"WARNING: {counts['invalid']} of {dataset.sizes['time']} rows are INVALID: {counts['invalid_by']} could not "
+        "use the inputs and kept the outputs from before. Column `valid` says in which rows, messages of the FMUs why."
+    ]
+
+
 def closing_lines(dataset: xr.Dataset) -> list[str]:
     """Return steps, iterations, events, power residuals and warnings, in sentences."""
     return [_steps(dataset), *_iterations(dataset), *_events(dataset), *_bonds(dataset), *_warnings(dataset)]

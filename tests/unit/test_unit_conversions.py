@@ -33,6 +33,14 @@ def test_temperatures_are_converted_with_their_zero_and_differences_without() ->
     assert converted(of("degC"), of("degF"), 100.0) == approx(212.0)
     assert converted(of("degC", True), of("K", True), 20.0) == approx(20.0)
     assert converted(of("degC", True), of("degF", True), 100.0) == approx(180.0)
+    assert converted(of("mm", True), of("m"), 5.0) == approx(5e-3)
+
+
+@pytest.mark.parametrize(("one", "other"), [("degC", "K"), ("K", "degF"), ("degC", "degC"), ("degC", "degF")])
+@pytest.mark.parametrize("relative", [True, False])
+def test_a_difference_of_temperatures_sets_no_temperature(one: str, other: str, relative: bool) -> None:
+    with pytest.raises(CouplingError, match="is a difference"):
+        conversion(of(one, relative), MODEL, of(other, not relative), MODEL)
 
 
 def test_units_are_known_by_name_where_an_fmu_does_not_define_them() -> None:
