@@ -118,6 +118,10 @@ class Settings:
         """The step [s] below which none is made, and how near an event is found."""
         return _MIN_STEP * self.step_size if self.min_step is None else self.min_step
 
+    def margin(self, time: float) -> float:
+        """Return by how much [s] another time may differ from `time` and still be the same: no step lies between."""
+        return max(min(_SAME * min(self.step_size, self.stop_time), self.smallest_step), 4.0 * math.ulp(time))
+
     @property
     def past(self) -> list[float]:
         """The times [s] before the start at which a history is asked for, the earliest first."""
@@ -149,7 +153,7 @@ class Settings:
                 "which neither a tolerance nor events allow. Leave them out."
             )
         times = [time for steps in system.schedule.values() for time, _ in steps if 0.0 < time < self.stop_time]
-        for time in [*times, self.stop_time] if fixed else []:
+        for time in [*times, *self.points, self.stop_time] if fixed else []:
             if abs(time / self.step_size - round(time / self.step_size)) > _SAME:
                 raise CouplingError(
                     f"The FMU '{fixed[0]}' takes steps of one size only (canHandleVariableCommunicationStepSize is "

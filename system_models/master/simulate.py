@@ -1,5 +1,6 @@
 """The time loop."""
 
+import bisect
 import json
 import logging
 from collections.abc import Callable, Iterable, Mapping
@@ -118,16 +119,16 @@ def _run(
     check_interrupt: Callable[[], None],
 ) -> None:
     stop_time = coupled.settings.stop_time
-    times = sorted({time for steps in coupled.system.schedule.values() for time, _ in steps if 0.0 < time < stop_time})
-    while coupled.time < stop_time and not stepper.statistics.ended_by:
-        limit = min([stop_time, coupled.next_event(), *(time for time in times if time > coupled.time)])
+    end = stop_time - coupled.settings.margin(stop_time)
+    times = sorted({time for steps in coupled.system.schedule.values() for time, _ in steps if 0.0 < time < end})
+    while coupled.time < end and not stepper.statistics.ended_by:
         try:
-            rows = stepper.step(limit)
+            rows = stepper.step(_limit(coupled, times))
         except Ended:
             break
         for row in rows:
             recorder.add(row)
-        if coupled.set_scheduled(lambda time: time == coupled.time):
+        if coupled.set_scheduled(lambda time: abs(time - coupled.time) <= coupled.settings.margin(coupled.time)):
             stepper.begin_anew()
         if observe:
             observe(coupled.time, coupled.instances)
@@ -137,6 +138,18 @@ def _run(
         check_interrupt()
     if store and recorder.count > store.count and not stepper.statistics.ended_by:
         _save(store, coupled, recorder, stepper)
+
+
+def _limit(coupled: Coupled, times: list[float]) -> float:
+    """Return the time [s] beyond which the next step must not go: the end, an announced event or one of some times.
+
+    Of those that are the same it is the event: its FMU waits for that very time.
+    """
+    settings, now = coupled.settings, coupled.time
+    following = bisect.bisect_right(times, now + settings.margin(now))
+    limit = min([settings.stop_time, *times[following : following + 1]])
+    event = coupled.next_event()
+    return min(event, settings.stop_time) if event <= limit + settings.margin(limit) else limit
 
 
 def _save(store: Checkpoint, coupled: Coupled, recorder: Recorder, stepper: Stepper) -> None:
@@ -213,7 +226,14 @@ def _verdicts(system: System, dataset: xr.Dataset) -> dict[str, Any]:
     """Return what FMUs say of their answers, as attributes, and warn of those that are invalid."""
     invalid = {name: ~dataset[column].values.astype(bool) for name, column in system.verdicts.items()}
     by = ", ".join(name for name, rows in invalid.items() if rows.any())
-    count = int(np.logical_or.reduce([*invalid.values()]).sum()) if invalid else 0
+    rows = np.logical_or.reduce([np.zeros(dataset.sizes["time"], dtype=bool), *invalid.values()])
+    count = int(rows.sum())
     if count:
-        log.warning("In %d of %d rows %s could not use the inputs.", count, dataset.sizes["time"], by)
+        log.warning(
+            "%d of %d rows are invalid, the first at %g s: the outputs of %s stand as they were before.",
+            count,
+            len(rows),
+            dataset["time"].values[rows][0],
+            by,
+        )
     return {"invalid": count, "invalid_by": by}
