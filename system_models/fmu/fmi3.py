@@ -1,6 +1,8 @@
 """A running FMU of FMI 3.0."""
 
+import logging
 import struct
+from collections.abc import Callable
 from ctypes import byref, c_bool, c_double, c_float
 from math import isclose, nan
 from typing import Any, NamedTuple
@@ -17,6 +19,8 @@ from .errors import CouplingError
 from .instance import Instance, Reals
 from .loading import load
 from .model import Model
+
+log = logging.getLogger(__name__)
 
 _MOST_UPDATES = 100  # of the discrete states at one time
 
@@ -45,7 +49,7 @@ class Fmi3Instance(Instance):
     other FMUs up to that time.
 
     Where the FMU has an event mode, discrete inputs are set in it; it ends as soon as a value is asked for or a step is
-    made.
+    made. One that claims to have it and refuses it is begun again without.
     """
 
     def __init__(
@@ -65,26 +69,17 @@ class Fmi3Instance(Instance):
         self.interpolates = capabilities.providesIntermediateUpdate and bool(within) and all(within)
         self._set, self._got = (_shared(reals, self.model) for reals in (self.inputs, self.outputs))
         self._has_event_mode = bool(capabilities.hasEventMode)
-        self._stepping = self._in_event_mode = False
+        self._started = self._stepping = self._in_event_mode = False
+        self._folder = folder
+        # values set and phases begun up to the first step, for an FMU that is begun again
+        self._begun: list[tuple[Callable[..., None], tuple[Any, ...]]] = []
+        self._load()
         try:
-            self._fmu = load(
-                FMU3Slave,
-                guid=self.model.description.guid,
-                modelIdentifier=capabilities.modelIdentifier,
-                unzipDirectory=folder,
-                instanceName=self.name,
-            )
-            self._fmu.instantiate(
-                loggingOn=True,
-                eventModeUsed=self._has_event_mode,
-                earlyReturnAllowed=self._early_return,
-                logMessage=self._on_message,
-                intermediateUpdate=self._on_intermediate_update if self.interpolates else None,
-                requiredIntermediateVariables=list(self.inputs.references) if self.interpolates else None,
-            )
+            self._create()
         except Exception as error:
-            raise self.failure("to start", error) from error
-        self._component = self._fmu.component
+            if not self._has_event_mode:
+                raise self.failure("to start", error) from error
+            self._leave_out_event_mode(error)
         self._no_return = not self.model.restores  # whether it is promised that no state before a step comes back
         self._event_needed, self._end_asked, self._early = c_bool(), c_bool(), c_bool()
         self._last_time = c_double()
@@ -96,6 +91,40 @@ class Fmi3Instance(Instance):
         )
         self._polynomial, self._start = np.empty((0, self.inputs.count)), nan  # of the inputs in the running step
         self._refused_input: FMICallException | None = None
+
+    def _load(self) -> None:
+        try:
+            self._fmu = load(
+                FMU3Slave,
+                guid=self.model.description.guid,
+                modelIdentifier=self.model.capabilities.modelIdentifier,
+                unzipDirectory=self._folder,
+                instanceName=self.name,
+            )
+        except Exception as error:
+            raise self.failure("to start", error) from error
+
+    def _create(self) -> None:
+        self._fmu.instantiate(
+            loggingOn=True,
+            eventModeUsed=self._has_event_mode,
+            earlyReturnAllowed=self._early_return,
+            logMessage=self._on_message,
+            intermediateUpdate=self._on_intermediate_update if self.interpolates else None,
+            requiredIntermediateVariables=list(self.inputs.references) if self.interpolates else None,
+        )
+        self._component = self._fmu.component
+
+    def _leave_out_event_mode(self, reason: Exception) -> None:
+        """Begin again without event mode, up to where the FMU is. Raises CouplingError for `reason` if that fails."""
+        self._has_event_mode = self._stepping = self._in_event_mode = False
+        try:
+            self._create()
+            for function, arguments in self._begun:
+                function(*arguments)
+        except Exception:
+            raise self.failure("to start", reason) from reason
+        log.warning("The FMU '%s' claims to have event mode and refuses it: it goes on without.", self.name)
 
     def _on_message(self, environment: Any, status: int, category: bytes, message: bytes) -> None:
         messages.pass_on(self.name, status, message)
@@ -205,17 +234,34 @@ class Fmi3Instance(Instance):
             if self._value(variable) == value:
                 return
             self._enter_event()
+        if not self._started:
+            self._begun.append((self._put, (variable, value)))
+        self._put(variable, value)
+
+    def _put(self, variable: ModelVariable, value: Any) -> None:
         getattr(self._fmu, f"set{_access(variable)}")([variable.valueReference], [value])
 
     def enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
         """Go from the start values to the initialisation."""
+        self._begun.append((self._enter_initialization, (time, stop, tolerance)))
+        self._enter_initialization(time, stop, tolerance)
+
+    def _enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
         self._fmu.enterInitializationMode(tolerance=tolerance, startTime=time, stopTime=stop)
 
     def exit_initialization(self) -> None:
         """Go from the initialisation to the first step."""
         self._fmu.exitInitializationMode()
         self._stepping = self._in_event_mode = self._has_event_mode
-        self._end_event()
+        try:
+            self._end_event()
+        except FMICallException as error:
+            self._fmu.freeInstance()
+            self._load()
+            self._leave_out_event_mode(error)
+            self._fmu.exitInitializationMode()
+        self._started = True
+        self._begun.clear()
 
     def save(self) -> Any:
         """Return the FMU's state, to be given to `restore` any number of times and to `release` once."""
