@@ -218,6 +218,14 @@ class System:
             )
         except CouplingError as error:
             raise CouplingError(f"'{source.name}' cannot be connected to '{target.name}': {error}") from None
+        missing = unit_checks.turns(
+            source.variable, source.model.description, target.variable, target.model.description
+        )
+        if missing and factor == 1.0:
+            raise CouplingError(
+                f"'{source.name}' in {source.variable.unit} cannot be connected to '{target.name}' in "
+                f"{target.variable.unit}: one counts turns, the other is an angle. Give it the factor {missing!r}."
+            )
         return Connection(source, target, factor * scale, factor * offset)
 
     def _check_targets(self) -> None:
