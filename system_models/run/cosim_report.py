@@ -28,7 +28,7 @@ def table(dataset: xr.Dataset) -> str:
     rows = [["output", "unit", "start", "smallest", "largest", "end"]]
     for name in names[:_MOST_ROWS]:
         values = dataset[name].values
-        rows.append([printable(name), dataset[name].attrs["units"], *map(_short, _range(values))])
+        rows.append([name, dataset[name].attrs["units"], *map(_short, _range(values))])
     more = [f"... and {len(names) - _MOST_ROWS} more, in the files."] if len(names) > _MOST_ROWS else []
     return "\n".join([*aligned(rows, 2), *more])
 
@@ -39,9 +39,7 @@ def _range(values: NDArray[Any]) -> tuple[Any, ...]:
 
 
 def _short(value: object) -> str:
-    if isinstance(value, (float, int)) and not isinstance(value, bool):
-        return f"{value:.6g}"
-    return printable(str(value))
+    return f"{value:.6g}" if isinstance(value, (float, int)) and not isinstance(value, bool) else str(value)
 
 
 def printable(text: str) -> str:
@@ -63,7 +61,7 @@ def costs(dataset: xr.Dataset) -> str:
 
 def aligned(rows: list[list[str]], left: int) -> list[str]:
     """Return rows of a table; the first `left` columns are words."""
-    columns = list(zip(*rows, strict=True))
+    columns = list(zip(*([printable(cell) for cell in row] for row in rows), strict=True))
     widths = [max(map(len, column)) for column in columns]
     padded = [
         [cell.ljust(width) if n < left else cell.rjust(width) for cell in column]
@@ -82,15 +80,17 @@ def validity(dataset: xr.Dataset) -> list[str]:
     counts = dataset.attrs
     if not counts["invalid"]:
         return []
-    return [
+    line = (
         f"WARNING: {counts['invalid']} of {dataset.sizes['time']} rows are INVALID: {counts['invalid_by']} could not "
         "use the inputs and kept the outputs from before. Column `valid` says in which rows, messages of the FMUs why."
-    ]
+    )
+    return [printable(line)]
 
 
 def closing_lines(dataset: xr.Dataset) -> list[str]:
     """Return steps, iterations, events, power residuals and warnings, in sentences."""
-    return [_steps(dataset), *_iterations(dataset), *_events(dataset), *_bonds(dataset), *_warnings(dataset)]
+    lines = [_steps(dataset), *_iterations(dataset), *_events(dataset), *_bonds(dataset), *_warnings(dataset)]
+    return [printable(line) for line in lines]
 
 
 def _steps(dataset: xr.Dataset) -> str:
@@ -121,7 +121,7 @@ def _events(dataset: xr.Dataset) -> list[str]:
 def _bonds(dataset: xr.Dataset) -> list[str]:
     bonds = [name for name in recorded(dataset) if name.startswith("bond.")]
     return [
-        f"Power residual at {printable(name.removeprefix('bond.'))}: "
+        f"Power residual at {name.removeprefix('bond.')}: "
         f"{float(np.abs(dataset[name]).max()):.3g} W at most, {float(np.abs(dataset[name]).mean()):.3g} W on average."
         for name in bonds
     ]
