@@ -1,5 +1,6 @@
 """Conversion from the unit of one variable to that of another."""
 
+import logging
 import math
 import re
 
@@ -10,8 +11,11 @@ from contact_core.scene.units import unit as known_unit
 
 from ..fmu.errors import CouplingError
 
+log = logging.getLogger(__name__)
+
 _EXPONENTS = ("m", "kg", "s", "K", "A", "mol", "cd")  # rad is a number: tools write rad/s and 1/s for the same
 _TURNS = re.compile("Hz|rpm|rev|r/|turn|min")  # in names of units that count turns, where they have no rad
+_TEMPERATURE = (0, 0, 0, 1, 0, 0, 0)
 _ROUNDED = 1e-4  # of a decade: factors are written with few digits
 _BY_NAME = {"degC": (1.0, 273.15), "°C": (1.0, 273.15), "degF": (1.0 / 1.8, 459.67 / 1.8)}  # factor and offset to K
 
@@ -23,7 +27,7 @@ def conversion(
 
     A variable without a unit gives and takes any. A difference (FMI's relativeQuantity) is converted without an offset.
     Raises CouplingError, the second half of a sentence, if the units measure different things or cannot be compared, or
-    if one is a difference, the other is not, and their units have an offset.
+    if one is a difference of temperatures, the other is not, and their units have an offset; in K, that is warned of.
     """
     if source.unit is None or target.unit is None:
         return 1.0, 0.0
@@ -41,13 +45,16 @@ def conversion(
             f"the unit '{source.unit}' measures another quantity than '{target.unit}'. "
             "Connect variables of one quantity, or correct the unit in the FMU."
         )
-    (_, factor, offset), (_, own_factor, own_offset) = here, there
-    if bool(source.relativeQuantity) != bool(target.relativeQuantity) and (offset or own_offset):
+    (base, factor, offset), (_, own_factor, own_offset) = here, there
+    if base == _TEMPERATURE and bool(source.relativeQuantity) != bool(target.relativeQuantity):
         relative, absolute = (source, target) if source.relativeQuantity else (target, source)
-        raise CouplingError(
+        meaning = (
             f"'{relative.name}' in {relative.unit} is a difference (relativeQuantity), '{absolute.name}' in "
-            f"{absolute.unit} is not. Connect variables of one meaning, or correct relativeQuantity in the FMU."
+            f"{absolute.unit} is not."
         )
+        if offset or own_offset:
+            raise CouplingError(f"{meaning} Connect variables of one meaning, or correct relativeQuantity in the FMU.")
+        log.warning("%s The value is passed on as it is.", meaning)
     return factor / own_factor, 0.0 if source.relativeQuantity else (offset - own_offset) / own_factor
 
 
@@ -82,7 +89,7 @@ def _base(unit: str, model: ModelDescription) -> tuple[tuple[int, ...], float, f
     if unit in ("", "1", "-"):
         return (0,) * len(_EXPONENTS), 1.0, 0.0
     if unit in _BY_NAME:
-        return (0, 0, 0, 1, 0, 0, 0), *_BY_NAME[unit]
+        return _TEMPERATURE, *_BY_NAME[unit]
     try:
         factor, exponents = known_unit(unit)
     except (SceneError, ValueError, KeyError):

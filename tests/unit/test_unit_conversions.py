@@ -56,6 +56,15 @@ def test_units_are_known_by_name_where_an_fmu_does_not_define_them() -> None:
     assert converted(of(None), of("m"), 5.0) == 5.0
 
 
+@pytest.mark.parametrize("relative", [True, False])
+def test_a_difference_in_kelvin_is_passed_on_with_a_warning(relative: bool, caplog: pytest.LogCaptureFixture) -> None:
+    assert converted(of("K", relative), of("mK", not relative), 5.0) == approx(5e3)
+    assert "in mK is" in caplog.text
+    caplog.clear()
+    assert converted(of("K", True), of("K", True), 5.0) == converted(of("m", True), of("m"), 5.0) == 5.0
+    assert not caplog.text
+
+
 def test_degrees_are_known_by_name() -> None:
     bare = ModelDescription()
     assert conversion(of("degC"), bare, of("K"), bare) == (1.0, 273.15)
