@@ -10,7 +10,7 @@ from ..fmu.kinds import kind
 Start = Mapping[str, float | int | str]  # values by name
 
 _REALS = {"Real", "Float32", "Float64"}
-_KINDS = {"real", "float", "integer", "boolean", "string"}
+_KINDS = {"real", "integer", "boolean", "string"}
 _MILLION = 1e6
 
 

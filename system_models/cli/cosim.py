@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Carry out the command; return 0, or 1 if some steps have not converged or are less accurate than asked.
+    """Carry out the command; return 0, or 1 if steps are less accurate than asked, or rows are invalid.
 
     Raises ContactError with a sentence if it cannot be done.
     """
@@ -73,8 +73,8 @@ def _report(dataset: "xr.Dataset", folder: Path) -> int:
     from ..store import results
 
     print(cosim_report.table(dataset), "", cosim_report.costs(dataset), "", sep="\n")
-    print(*cosim_report.closing_lines(dataset), sep="\n")
-    code = 1 if cosim_report.unreliable_steps(dataset) else 0
+    print(*cosim_report.closing_lines(dataset), *cosim_report.validity(dataset), sep="\n")
+    code = 1 if cosim_report.unreliable_steps(dataset) or dataset.attrs["invalid"] else 0
     dataset = dataset.assign_attrs({EXIT_CODE: code})
     written = [*results.write(dataset, folder), cosim_report.write_overview(dataset, folder / "overview.png")]
     print(f"Written: {', '.join(map(str, written))}")

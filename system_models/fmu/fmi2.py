@@ -16,7 +16,7 @@ from fmpy.model_description import ModelVariable
 from numpy.typing import NDArray
 
 from .instance import Instance
-from .kinds import kind
+from .kinds import discrete, kind
 from .library import FMU2Library
 from .loading import load
 
@@ -35,7 +35,8 @@ class Fmi2Instance(Instance):
         if self._fmu.component is None:
             raise self.failure("to start", Exception("Failed to instantiate model"))
         self._component = self._fmu.component
-        self.interpolates = bool(self.model.capabilities.canInterpolateInputs)
+        self._smooth = [n for n, name in enumerate(self.inputs.names) if not discrete(self.model.variables[name])]
+        self.interpolates = bool(self.model.capabilities.canInterpolateInputs and self._smooth)
         self._no_return = not self.model.restores  # whether it is promised that no state before a step comes back
         self._order = 0  # of the buffers for derivatives of the inputs
 
@@ -48,17 +49,17 @@ class Fmi2Instance(Instance):
                 self._set_derivatives(self.derivative_order, polynomial)
 
     def _set_derivatives(self, order: int, polynomial: NDArray[np.float64]) -> None:
-        """Set the derivatives up to the highest order that was ever set: an FMU may keep old ones."""
-        count = self.inputs.count * order
+        """Set those of continuous inputs, up to the highest order that was ever set: an FMU may keep old ones."""
+        count = len(self._smooth) * order
         if order > self._order:
-            references = (fmi2ValueReference * count)(*(list(self.inputs.references) * order))
-            orders = (fmi2Integer * count)(*np.repeat(np.arange(1, order + 1), self.inputs.count).tolist())
-            self._slopes = np.zeros((order, self.inputs.count))
+            references = (fmi2ValueReference * count)(*([self.inputs.references[n] for n in self._smooth] * order))
+            orders = (fmi2Integer * count)(*np.repeat(np.arange(1, order + 1), len(self._smooth)).tolist())
+            self._slopes = np.zeros((order, len(self._smooth)))
             buffer = (c_double * count).from_buffer(self._slopes.data)
             self._order, self._derivatives = order, (references, orders, buffer)
         degree = len(polynomial) - 1
         self._slopes[degree:] = 0.0
-        np.multiply(polynomial[1:], _FACTORIALS[1 : degree + 1], out=self._slopes[:degree])
+        np.multiply(polynomial[1:, self._smooth], _FACTORIALS[1 : degree + 1], out=self._slopes[:degree])
         references, orders, buffer = self._derivatives
         self._fmu.fmi2SetRealInputDerivatives(self._component, references, count, orders, buffer)
 
@@ -141,5 +142,4 @@ class Fmi2Instance(Instance):
         self._fmu.freeInstance()
 
 
-_FMI2_NAMES = {"real": "{}Real", "float": "{}Real", "integer": "{}Integer"}
-_FMI2_NAMES |= {"boolean": "{}Boolean", "string": "{}String"}
+_FMI2_NAMES = {"real": "{}Real", "integer": "{}Integer", "boolean": "{}Boolean", "string": "{}String"}

@@ -1,22 +1,26 @@
 """A running FMU of FMI 3.0."""
 
+import logging
 import struct
-from ctypes import byref, c_bool, c_double
+from collections.abc import Callable
+from ctypes import byref, c_bool, c_double, c_float
 from math import isclose, nan
 from typing import Any, NamedTuple
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi3 import FMU3Slave, fmi3Discard
+from fmpy.fmi3 import FMU3Slave, fmi3Discard, fmi3ValueReference
 from fmpy.model_description import ModelVariable
 from numpy.typing import NDArray
 
 from ..numerics import hold
 from . import messages
 from .errors import CouplingError
-from .instance import Instance
+from .instance import Instance, Reals
 from .loading import load
 from .model import Model
+
+log = logging.getLogger(__name__)
 
 _MOST_UPDATES = 100  # of the discrete states at one time
 
@@ -28,6 +32,16 @@ class State(NamedTuple):
     next_event: float | None
 
 
+class _Shared(NamedTuple):
+    """Variables of one type: where they stand among Reals, and the memory that the FMU reads and writes."""
+
+    type: str
+    places: NDArray[np.intp] | slice
+    references: Any
+    values: NDArray[Any]
+    buffer: Any
+
+
 class Fmi3Instance(Instance):
     """An instance of an FMU of FMI 3.0.
 
@@ -35,7 +49,7 @@ class Fmi3Instance(Instance):
     other FMUs up to that time.
 
     Where the FMU has an event mode, discrete inputs are set in it; it ends as soon as a value is asked for or a step is
-    made.
+    made. One that claims to have it and refuses it is begun again without.
     """
 
     def __init__(
@@ -53,27 +67,19 @@ class Fmi3Instance(Instance):
         capabilities = self.model.capabilities
         within = [self.model.variables[name].intermediateUpdate for name in self.inputs.names]
         self.interpolates = capabilities.providesIntermediateUpdate and bool(within) and all(within)
+        self._set, self._got = (_shared(reals, self.model) for reals in (self.inputs, self.outputs))
         self._has_event_mode = bool(capabilities.hasEventMode)
-        self._stepping = self._in_event_mode = False
+        self._started = self._stepping = self._in_event_mode = False
+        self._folder = folder
+        # values set and phases begun up to the first step, for an FMU that is begun again
+        self._begun: list[tuple[Callable[..., None], tuple[Any, ...]]] = []
+        self._load()
         try:
-            self._fmu = load(
-                FMU3Slave,
-                guid=self.model.description.guid,
-                modelIdentifier=capabilities.modelIdentifier,
-                unzipDirectory=folder,
-                instanceName=self.name,
-            )
-            self._fmu.instantiate(
-                loggingOn=True,
-                eventModeUsed=self._has_event_mode,
-                earlyReturnAllowed=self._early_return,
-                logMessage=self._on_message,
-                intermediateUpdate=self._on_intermediate_update if self.interpolates else None,
-                requiredIntermediateVariables=list(self.inputs.references) if self.interpolates else None,
-            )
+            self._create()
         except Exception as error:
-            raise self.failure("to start", error) from error
-        self._component = self._fmu.component
+            if not self._has_event_mode:
+                raise self.failure("to start", error) from error
+            self._leave_out_event_mode(error)
         self._no_return = not self.model.restores  # whether it is promised that no state before a step comes back
         self._event_needed, self._end_asked, self._early = c_bool(), c_bool(), c_bool()
         self._last_time = c_double()
@@ -85,6 +91,40 @@ class Fmi3Instance(Instance):
         )
         self._polynomial, self._start = np.empty((0, self.inputs.count)), nan  # of the inputs in the running step
         self._refused_input: FMICallException | None = None
+
+    def _load(self) -> None:
+        try:
+            self._fmu = load(
+                FMU3Slave,
+                guid=self.model.description.guid,
+                modelIdentifier=self.model.capabilities.modelIdentifier,
+                unzipDirectory=self._folder,
+                instanceName=self.name,
+            )
+        except Exception as error:
+            raise self.failure("to start", error) from error
+
+    def _create(self) -> None:
+        self._fmu.instantiate(
+            loggingOn=True,
+            eventModeUsed=self._has_event_mode,
+            earlyReturnAllowed=self._early_return,
+            logMessage=self._on_message,
+            intermediateUpdate=self._on_intermediate_update if self.interpolates else None,
+            requiredIntermediateVariables=list(self.inputs.references) if self.interpolates else None,
+        )
+        self._component = self._fmu.component
+
+    def _leave_out_event_mode(self, reason: Exception) -> None:
+        """Begin again without event mode, up to where the FMU is. Raises CouplingError for `reason` if that fails."""
+        self._has_event_mode = self._stepping = self._in_event_mode = False
+        try:
+            self._create()
+            for function, arguments in self._begun:
+                function(*arguments)
+        except Exception:
+            raise self.failure("to start", reason) from reason
+        log.warning("The FMU '%s' claims to have event mode and refuses it: it goes on without.", self.name)
 
     def _on_message(self, environment: Any, status: int, category: bytes, message: bytes) -> None:
         messages.pass_on(self.name, status, message)
@@ -114,13 +154,21 @@ class Fmi3Instance(Instance):
 
     def set_inputs(self) -> None:
         """Give the FMU the values of `inputs`."""
-        inputs = self.inputs
-        self._fmu.fmi3SetFloat64(self._component, inputs.references, inputs.count, inputs.buffer, inputs.count)
+        for part in self._set:
+            if part.values is not self.inputs.values:
+                part.values[:] = self.inputs.values[part.places]
+            count = len(part.values)
+            setter = getattr(self._fmu, f"fmi3Set{part.type}")
+            setter(self._component, part.references, count, part.buffer, count)
 
     def _get_outputs(self) -> None:
         self._end_event()
-        outputs = self.outputs
-        self._fmu.fmi3GetFloat64(self._component, outputs.references, outputs.count, outputs.buffer, outputs.count)
+        for part in self._got:
+            count = len(part.values)
+            getter = getattr(self._fmu, f"fmi3Get{part.type}")
+            getter(self._component, part.references, count, part.buffer, count)
+            if part.values is not self.outputs.values:
+                self.outputs.values[part.places] = part.values
 
     def _do_step(self, time: float, size: float) -> float:
         self.event = False
@@ -186,17 +234,34 @@ class Fmi3Instance(Instance):
             if self._value(variable) == value:
                 return
             self._enter_event()
+        if not self._started:
+            self._begun.append((self._put, (variable, value)))
+        self._put(variable, value)
+
+    def _put(self, variable: ModelVariable, value: Any) -> None:
         getattr(self._fmu, f"set{_access(variable)}")([variable.valueReference], [value])
 
     def enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
         """Go from the start values to the initialisation."""
+        self._begun.append((self._enter_initialization, (time, stop, tolerance)))
+        self._enter_initialization(time, stop, tolerance)
+
+    def _enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
         self._fmu.enterInitializationMode(tolerance=tolerance, startTime=time, stopTime=stop)
 
     def exit_initialization(self) -> None:
         """Go from the initialisation to the first step."""
         self._fmu.exitInitializationMode()
         self._stepping = self._in_event_mode = self._has_event_mode
-        self._end_event()
+        try:
+            self._end_event()
+        except FMICallException as error:
+            self._fmu.freeInstance()
+            self._load()
+            self._leave_out_event_mode(error)
+            self._fmu.exitInitializationMode()
+        self._started = True
+        self._begun.clear()
 
     def save(self) -> Any:
         """Return the FMU's state, to be given to `restore` any number of times and to `release` once."""
@@ -233,6 +298,21 @@ class Fmi3Instance(Instance):
     def free(self) -> None:
         """End the instance, whatever state it is in."""
         self._fmu.freeInstance()
+
+
+def _shared(reals: Reals, model: Model) -> list[_Shared]:
+    """Return the Reals by type: those of Float64 alone as they are, any other in memory of its own."""
+    types = [model.variables[name].type for name in reals.names]
+    if set(types) <= {"Float64"}:
+        return [_Shared("Float64", slice(None), reals.references, reals.values, reals.buffer)] if types else []
+    found = []
+    for name, of_c in (("Float64", c_double), ("Float32", c_float)):
+        places = np.flatnonzero([own == name for own in types])
+        values = np.zeros(len(places), of_c)
+        buffer = (of_c * len(places)).from_buffer(values.data)
+        references = (fmi3ValueReference * len(places))(*(reals.references[n] for n in places))
+        found.append(_Shared(name, places, references, values, buffer))
+    return [part for part in found if len(part.values)]
 
 
 def _access(variable: ModelVariable) -> str:

@@ -43,6 +43,13 @@ class Model:
         """True if a saved state can outlive the process."""
         return self.restores and bool(self.capabilities.canSerializeFMUstate)
 
+    @property
+    def verdict(self) -> ModelVariable | None:
+        """The output by which an FMU of tribofmu says whether it could use its inputs."""
+        variable = self.variables.get("valid")
+        ours = str(self.description.generationTool or "").startswith("tribofmu")
+        return variable if ours and variable and variable.causality == "output" else None
+
     @cached_property
     def dependencies(self) -> dict[str, frozenset[str]]:
         """The inputs that each output depends on directly; where it does not say, all of them."""

@@ -4,7 +4,7 @@ The system:
 
     system        FMUs, connections, parameters, schedules, events, power bonds; reading: from TOML; ssp: to SSP 1.0
     unit_checks   conversion from the unit of one variable to that of another
-    settings      the options of a simulation, and what they require of the FMUs
+    settings      the options of a simulation, and what they require of the FMUs; reach: the connections they act on
 
 The simulation:
 
@@ -13,7 +13,7 @@ The simulation:
     stepping      a communication step of a given size; controlled: as large as a tolerance allows
     events        the time of an event within a step
     coupled       the running FMUs of a system: exchange, advance, save, restore
-    passed_on     connections to inputs that hold their values over a step
+    passed_on     connections to inputs that are set when their values change
     magnitudes    magnitudes of outputs, by which tolerances are relative
     initial       consistent initial values
     wiring        connections as arrays; sequence: order of the FMUs; linear: correction by derivatives

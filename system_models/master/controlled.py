@@ -38,7 +38,9 @@ class ControlledStepper(Stepper):
         super().__init__(coupled, recorder)
         self.tolerance, self.horizon = tolerance, coupled.settings.horizon or coupled.settings.stop_time
         self.size = self.step_size
-        self.control = StepControl(coupled.settings.order + 1)
+        # errors are of first order where some inputs hold their values, whatever the order
+        self._holds = coupled.settings.order > 0 and bool(coupled.wiring.sampled.any())
+        self.control = StepControl(1 if self._holds else coupled.settings.order + 1)
         self._controlled = _mask(coupled)
         # how often in a row a coupled output has seemed to lag only
         self.lags = np.zeros(len(coupled.wiring.coupled), dtype=int)
@@ -118,7 +120,8 @@ class ControlledStepper(Stepper):
             if middle is not start:
                 coupled.release(middle)
         changes = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs)
-        errors = changes * (of_halves.per_difference if not self._lagging.any() else max(of_halves.per_difference, 1.0))
+        first_order = self._holds or self._lagging.any()
+        errors = changes * (max(of_halves.per_difference, 1.0) if first_order else of_halves.per_difference)
         errors = np.where(self._controlled, errors, 0.0)
         ratio = self._ratio(errors, size)
         if max(whole.residual, first.residual, second.residual) > 1.0:

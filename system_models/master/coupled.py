@@ -11,7 +11,7 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 from numpy.typing import NDArray
 
-from ..fmu.errors import NotFiniteError
+from ..fmu.errors import CouplingError, NotFiniteError
 from ..fmu.instance import Instance
 from ..fmu.start import started
 from ..numerics import hold
@@ -78,7 +78,7 @@ class Coupled:
         self.wiring = Wiring(system, self.instances)
         self.outputs = np.zeros(len(self.wiring.outputs))
         self.magnitudes = Magnitudes([system.port(name).nominal or 0.0 for name in self.wiring.outputs])
-        self.history = History(settings.order)
+        self.history = History(settings.order, self.wiring.sampled)
         self.iteration_tolerance = settings.converged
         self.time = 0.0
         self._blocks = blocks(system, self.instances, self.wiring.inputs, settings)
@@ -95,7 +95,7 @@ class Coupled:
         for instance in self.instances.values():
             with self._named(instance, "to be initialised"):
                 instance.enter_initialization(self.time, self.settings.stop_time, self.settings.tolerance)
-        self.set_scheduled(lambda time: time <= self.time)
+        self.set_scheduled(lambda time: time <= self.settings.margin(self.time))
         initialise(self.instances, self.system.connections)
         for instance in self.instances.values():
             with self._named(instance, "to be initialised"):
@@ -124,9 +124,11 @@ class Coupled:
         return bool(due)
 
     def next_event(self) -> float:
-        """Return the time [s] of the first event that an FMU has announced."""
+        """Return the time [s] of the first event that an FMU has announced, the latest of those at the same time."""
         announced = [instance.next_event for instance in self.instances.values() if instance.next_event is not None]
-        return min((time for time in announced if time > self.time), default=math.inf)
+        ahead = [time for time in announced if time > self.time]
+        first = min(ahead, default=math.inf)
+        return max((time for time in ahead if time <= first + self.settings.margin(first)), default=math.inf)
 
     def restart(self) -> None:
         """Begin anew at this time: read all outputs, and forget the past."""
@@ -225,6 +227,7 @@ class Coupled:
         end = self.time + size
         for name, fresh in block.sequence:
             instance, inputs = self.instances[name], polynomial[:, self.wiring.input_of[name]]
+            self._require_size(instance, size)
             if len(fresh):
                 own = self.wiring.input_of[name]
                 now = self.wiring.inputs_from(self.outputs, own)
@@ -241,6 +244,16 @@ class Coupled:
             self.outputs[self.wiring.output_of[name]] = instance.outputs.values
             if name in self._correction.owners:
                 self._to_end(instance, hold.value(inputs, size))
+
+    def _require_size(self, instance: Instance, size: float) -> None:
+        step = self.settings.step_size
+        variable = instance.model.capabilities.canHandleVariableCommunicationStepSize
+        if not variable and abs(size - step) > self.settings.margin(self.time):
+            raise CouplingError(
+                f"The FMU '{instance.name}' takes steps of one size only (canHandleVariableCommunicationStepSize is "
+                f"false), {step:g} s here, but the step from {self.time:g} s must be one of {size:g} s: points, or an "
+                "event that another FMU announces, are no multiples of it. Take another step_size."
+            )
 
     def _to_end(self, instance: Instance, inputs: Array) -> None:
         """Move the outputs of an FMU from the inputs that it received to those at the end of the step."""

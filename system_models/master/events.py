@@ -10,12 +10,12 @@ Values = tuple[list[float], list[Any]]
 
 
 class Indicators:
-    """The outputs that indicate events: a Real one by being above zero or not, any other by its value."""
+    """The outputs that indicate events: a continuous Real one by being above zero or not, any other by its value."""
 
     def __init__(self, coupled: Coupled) -> None:
         self._coupled = coupled
-        self._reals = [coupled.wiring.output_place[port.name] for port in coupled.system.events if port.kind == "real"]
-        self._others = [port for port in coupled.system.events if port.kind != "real"]
+        self._reals = [coupled.wiring.output_place[port.name] for port in coupled.system.events if port.continuous]
+        self._others = [port for port in coupled.system.events if not port.continuous]
 
     def values(self) -> Values:
         """Return their values now."""

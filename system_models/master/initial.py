@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from ..fmu.errors import CouplingError
 from ..fmu.instance import Instance
-from ..fmu.kinds import NUMBERS
 from ..numerics.control import scale, wrms
 from ..numerics.quasi_newton import QuasiNewton
 from .sequence import sorted_loops
@@ -93,7 +92,7 @@ class _Loop:
         self, instances: Mapping[str, Instance], by_target: Mapping[str, Connection], names: list[str], edges: Edges
     ) -> None:
         self._instances, self._names = instances, names
-        discrete = {name for name in names if by_target[name].source.kind not in NUMBERS}
+        discrete = {name for name in names if by_target[name].source.kind != "real"}
         cuts, order = _cut(names, edges, discrete)
         self._chain = [by_target[name] for name in order]
         self._reals = [by_target[name] for name in cuts if name not in discrete]

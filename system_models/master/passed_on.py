@@ -1,4 +1,4 @@
-"""Connections to inputs that hold their values over a step: integers, booleans, texts and discrete Reals."""
+"""Connections to inputs that are set when their values change: integers, booleans, texts, and Reals set at events."""
 
 from typing import TYPE_CHECKING, Any
 

@@ -34,7 +34,9 @@ class Recorder:
         }
         self._extras = STATISTICS | bonds
         self._times = array("d")
-        self._columns: list[Any] = [array("d") if place is not None else [] for place in self._places]
+        # of integers numpy finds the type, but for those that may be above all of Int64
+        types = ("d" if p.kind == "real" else "Q" if p.variable.type == "UInt64" else None for p in ports)
+        self._columns: list[Any] = [array(each) if each else [] for each in types]
         self._statistics = [array("d") for _ in self._extras]
 
     def row(self, size: float, outcome: Outcome, error: float = 0.0) -> Row:

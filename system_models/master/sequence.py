@@ -58,7 +58,7 @@ def blocks(system: System, instances: Mapping[str, Instance], inputs: list[str],
 
 def direct_loops(system: System) -> list[list[str]]:
     """Return coupled Real inputs around a loop of outputs that depend on them directly, as the FMUs declare it."""
-    source = {c.target.name: c.source for c in system.connections if c.source.kind == "real"}
+    source = {c.target.name: c.source for c in system.connections if c.coupled}
     edges = [
         (f"{port.model.name}.{known}", target)
         for target, port in source.items()

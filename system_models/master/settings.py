@@ -101,6 +101,12 @@ class Settings:
             raise CouplingError(f"controlled = {list(self.controlled)} must keep a tolerance. Give one as well.")
         if self.max_step is not None and self.tolerance is None:
             raise CouplingError(f"max_step = {self.max_step:g} s limits steps chosen by a tolerance. Give one as well.")
+        if self.horizon is not None and self.tolerance is None:
+            raise CouplingError(f"horizon = {self.horizon:g} s is that of a tolerance. Give one as well.")
+        if self.iteration_tolerance is not None and self.iterate is None:
+            raise CouplingError(
+                f"iteration_tolerance = {self.iteration_tolerance:g} is that of iterate. Give one as well."
+            )
 
         if self.points and self.tolerance is not None:
             raise CouplingError(f"tolerance = {self.tolerance:g} chooses the steps, and so do points. Leave one out.")
@@ -111,6 +117,10 @@ class Settings:
     def smallest_step(self) -> float:
         """The step [s] below which none is made, and how near an event is found."""
         return _MIN_STEP * self.step_size if self.min_step is None else self.min_step
+
+    def margin(self, time: float) -> float:
+        """Return by how much [s] another time may differ from `time` and still be the same: no step lies between."""
+        return max(min(_SAME * min(self.step_size, self.stop_time), self.smallest_step), 4.0 * math.ulp(time))
 
     @property
     def past(self) -> list[float]:
@@ -143,7 +153,7 @@ class Settings:
                 "which neither a tolerance nor events allow. Leave them out."
             )
         times = [time for steps in system.schedule.values() for time, _ in steps if 0.0 < time < self.stop_time]
-        for time in [*times, self.stop_time] if fixed else []:
+        for time in [*times, *self.points, self.stop_time] if fixed else []:
             if abs(time / self.step_size - round(time / self.step_size)) > _SAME:
                 raise CouplingError(
                     f"The FMU '{fixed[0]}' takes steps of one size only (canHandleVariableCommunicationStepSize is "

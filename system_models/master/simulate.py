@@ -1,5 +1,6 @@
 """The time loop."""
 
+import bisect
 import json
 import logging
 from collections.abc import Callable, Iterable, Mapping
@@ -14,7 +15,7 @@ import xarray as xr
 from ..fmu.errors import CouplingError
 from ..fmu.instance import Instance
 from ..store.checkpoint import Checkpoint
-from . import saving
+from . import reach, saving
 from .controlled import ControlledStepper
 from .coupled import Coupled
 from .interrupt import deferred
@@ -59,6 +60,7 @@ def simulate(
     Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", statistics of each step;
     "bond.*", the difference between the powers that the two FMUs of a bond compute. Its attributes count steps,
     iterations, unconverged, below_min_step, events and stopped_early among the steps that stand, and those rejected;
+    invalid counts the rows in which one of the FMUs invalid_by, of tribofmu, says that it could not use its inputs;
     ended_by is the FMU that has asked for the end, receives_means those that take no derivatives of inputs, and `cost`
     gives, as JSON, all steps of each FMU and its seconds.
 
@@ -67,6 +69,7 @@ def simulate(
     """
     settings = Settings(stop_time, step_size, **options)
     settings.check(system)
+    reach.check(settings, system)
     ports = system.outputs(outputs)
     with ExitStack() as exits:
         store = checkpoint if isinstance(checkpoint, Checkpoint) else None
@@ -102,7 +105,8 @@ def simulate(
                 _save(store, coupled, recorder, stepper)
         _run(coupled, recorder, stepper, progress or (lambda time: None), observe, store, check_interrupt)
         _report(coupled, stepper.statistics)
-        return recorder.dataset(_attributes(coupled, stepper))
+        dataset = recorder.dataset(_attributes(coupled, stepper))
+        return dataset.assign_attrs(_verdicts(system, dataset))
 
 
 def _run(
@@ -115,16 +119,16 @@ def _run(
     check_interrupt: Callable[[], None],
 ) -> None:
     stop_time = coupled.settings.stop_time
-    times = sorted({time for steps in coupled.system.schedule.values() for time, _ in steps if 0.0 < time < stop_time})
-    while coupled.time < stop_time and not stepper.statistics.ended_by:
-        limit = min([stop_time, coupled.next_event(), *(time for time in times if time > coupled.time)])
+    end = stop_time - coupled.settings.margin(stop_time)
+    times = sorted({time for steps in coupled.system.schedule.values() for time, _ in steps if 0.0 < time < end})
+    while coupled.time < end and not stepper.statistics.ended_by:
         try:
-            rows = stepper.step(limit)
+            rows = stepper.step(_limit(coupled, times))
         except Ended:
             break
         for row in rows:
             recorder.add(row)
-        if coupled.set_scheduled(lambda time: time == coupled.time):
+        if coupled.set_scheduled(lambda time: abs(time - coupled.time) <= coupled.settings.margin(coupled.time)):
             stepper.begin_anew()
         if observe:
             observe(coupled.time, coupled.instances)
@@ -134,6 +138,18 @@ def _run(
         check_interrupt()
     if store and recorder.count > store.count and not stepper.statistics.ended_by:
         _save(store, coupled, recorder, stepper)
+
+
+def _limit(coupled: Coupled, times: list[float]) -> float:
+    """Return the time [s] beyond which the next step must not go: the end, an announced event or one of some times.
+
+    Of those that are the same it is the event: its FMU waits for that very time.
+    """
+    settings, now = coupled.settings, coupled.time
+    following = bisect.bisect_right(times, now + settings.margin(now))
+    limit = min([settings.stop_time, *times[following : following + 1]])
+    event = coupled.next_event()
+    return min(event, settings.stop_time) if event <= limit + settings.margin(limit) else limit
 
 
 def _save(store: Checkpoint, coupled: Coupled, recorder: Recorder, stepper: Stepper) -> None:
@@ -152,7 +168,7 @@ def _warn_of_loops(system: System, settings: Settings) -> None:
 
 
 def _remember(coupled: Coupled, history: Mapping[str, Callable[[float], float]]) -> None:
-    coupled_outputs = {coupled.wiring.outputs[place] for place in coupled.wiring.coupled}
+    coupled_outputs = {coupled.wiring.outputs[place] for place in coupled.wiring.source}
     missing = sorted(coupled_outputs - set(history))
     if missing:
         raise CouplingError(
@@ -199,7 +215,25 @@ def _report(coupled: Coupled, statistics: Statistics) -> None:
 def _attributes(coupled: Coupled, stepper: Stepper) -> dict[str, Any]:
     instances = coupled.instances
     costs = {name: {"steps": each.steps, "seconds": each.seconds} for name, each in instances.items()}
-    receives_means = [each.name for each in instances.values() if each.inputs.count and not each.interpolates]
+    smooth = {name: not coupled.wiring.sampled[own].all() for name, own in coupled.wiring.input_of.items()}
+    receives_means = [name for name, each in instances.items() if smooth[name] and not each.interpolates]
     if not coupled.settings.order:
         receives_means = []
     return asdict(stepper.statistics) | {"receives_means": ", ".join(receives_means), "cost": json.dumps(costs)}
+
+
+def _verdicts(system: System, dataset: xr.Dataset) -> dict[str, Any]:
+    """Return what FMUs say of their answers, as attributes, and warn of those that are invalid."""
+    invalid = {name: ~dataset[column].values.astype(bool) for name, column in system.verdicts.items()}
+    by = ", ".join(name for name, rows in invalid.items() if rows.any())
+    rows = np.logical_or.reduce([np.zeros(dataset.sizes["time"], dtype=bool), *invalid.values()])
+    count = int(rows.sum())
+    if count:
+        log.warning(
+            "%d of %d rows are invalid, the first at %g s: the outputs of %s stand as they were before.",
+            count,
+            len(rows),
+            dataset["time"].values[rows][0],
+            by,
+        )
+    return {"invalid": count, "invalid_by": by}

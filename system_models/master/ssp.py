@@ -36,7 +36,7 @@ _SPACES = {
     name: f"http://ssp-standard.org/SSP1/SystemStructure{title}"
     for name, title in (("ssd", "Description"), ("ssc", "Common"), ("ssv", "ParameterValues"))
 } | {"oms": "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd"}
-_TYPES = {"real": "Real", "float": "Real", "integer": "Integer", "boolean": "Boolean", "string": "String"}
+_TYPES = {"real": "Real", "integer": "Integer", "boolean": "Boolean", "string": "String"}
 _BASE = ("kg", "m", "s", "A", "K", "mol", "cd", "rad", "factor", "offset")
 _EPOCH = (1980, 1, 1, 0, 0, 0)  # of every entry: the same system gives the same bytes
 

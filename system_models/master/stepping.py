@@ -144,11 +144,13 @@ class Stepper:
     def _proposed_end(self, limit: float) -> float:
         """Return the next of the given points or else multiple of the step, or the limit."""
         time, points = self.coupled.time, self.coupled.settings.points
-        following = bisect.bisect_right(points, time)
+        margin = self.coupled.settings.margin(limit)
+        following = bisect.bisect_right(points, time + margin)
         if following < len(points):
-            return min(points[following], limit)
-        end = self.step_size * (math.floor(time / self.step_size + 1e-9) + 1)
-        return limit if end > limit - 1e-9 * self.step_size else end
+            end = points[following]
+        else:
+            end = self.step_size * (math.floor((time + margin) / self.step_size) + 1)
+        return limit if end > limit - margin else end
 
     def _attempt(self, end: float, start: Point) -> Attempt:
         size = end - start.time

@@ -1,6 +1,7 @@
 """A system: FMUs, the connections between them, parameters and schedules."""
 
 import math
+import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -12,11 +13,13 @@ from fmpy.model_description import ModelVariable
 from contact_core.scene.toml import did_you_mean
 
 from ..fmu.errors import CouplingError
-from ..fmu.kinds import NUMBERS, kind
+from ..fmu.kinds import discrete, kind
 from ..fmu.model import Model
 from . import unit_checks
 
 Value = float | int | bool | str
+
+_OWN = ("master", "bond")  # before a dot, in names of columns
 
 
 @dataclass(frozen=True)
@@ -33,8 +36,13 @@ class Port:
 
     @property
     def kind(self) -> str:
-        """real, float, integer, boolean or string."""
+        """real, integer, boolean or string."""
         return kind(self.variable)
+
+    @property
+    def continuous(self) -> bool:
+        """True for a Real that may change between communication points."""
+        return self.kind == "real" and not discrete(self.variable)
 
     @property
     def nominal(self) -> float | None:
@@ -51,9 +59,21 @@ class Connection:
     factor: float
     offset: float
 
+    @property
+    def sampled(self) -> bool:
+        """True if its value holds between communication points, because an end is discrete."""
+        return discrete(self.source.variable) or discrete(self.target.variable)
+
+    @property
+    def coupled(self) -> bool:
+        """True for a Real input that is set in every step; the others are set when their values change."""
+        model, variable = self.target.model, self.target.variable
+        by_events = model.fmi3 and model.capabilities.hasEventMode and discrete(variable)
+        return self.source.kind == self.target.kind == "real" and not by_events
+
     def result(self, value: Any) -> Any:
         """Return the value of the target for a value of the source."""
-        return self.factor * value + self.offset if self.source.kind in NUMBERS else value
+        return self.factor * value + self.offset if self.source.kind == "real" else value
 
 
 @dataclass(frozen=True)
@@ -129,17 +149,18 @@ class System:
         return Port(model, model.variables[variable])
 
     def outputs(self, names: Iterable[str] | None) -> list[Port]:
-        """Return the variables to record: those named, or every output that is no text."""
+        """Return the variables to record: those named and verdicts of FMUs, or every output that is no text."""
         if isinstance(names, str):
             raise CouplingError(f"outputs = {names!r} is one name. Give a list of names.")
         if names is not None:
-            return [self._recorded(name) for name in dict.fromkeys(names)]
+            return [self._recorded(name) for name in dict.fromkeys([*names, *self.verdicts.values()])]
         every = (Port(m, v) for m in self.models.values() for v in m.variables.values() if v.causality == "output")
-        return [
-            port
-            for port in every
-            if port.kind in ("real", "float", "integer", "boolean") and not port.variable.dimensions
-        ]
+        return [port for port in every if port.kind in ("real", "integer", "boolean") and not port.variable.dimensions]
+
+    @property
+    def verdicts(self) -> dict[str, str]:
+        """The output of each FMU, where it has one, that says whether it could use its inputs."""
+        return {name: f"{name}.{m.verdict.name}" for name, m in self.models.items() if m.verdict is not None}
 
     def _recorded(self, name: str) -> Port:
         port = self.port(name)
@@ -164,7 +185,7 @@ class System:
         return port
 
     def _check_kind(self, port: Port) -> None:
-        if port.kind not in ("real", "float", "integer", "boolean", "string"):
+        if port.kind not in ("real", "integer", "boolean", "string"):
             raise CouplingError(
                 f"'{port.name}' is of type {port.variable.type}, which cannot be exchanged. Leave it out."
             )
@@ -174,12 +195,12 @@ class System:
     def _connection(self, source_name: str, target_name: str, factor: float) -> Connection:
         source = self._output(source_name, "the start of a connection")
         target = self._input(target_name, "the end of a connection")
-        if source.kind != target.kind and not (source.kind in NUMBERS and target.kind in NUMBERS):
+        if source.kind != target.kind:
             raise CouplingError(
                 f"'{source.name}' is of type {source.variable.type} and cannot set '{target.name}' of type "
                 f"{target.variable.type}. Connect variables of one type."
             )
-        if source.kind not in NUMBERS:
+        if source.kind != "real":
             if factor != 1.0:
                 raise CouplingError(
                     f"The connection from '{source.name}' to '{target.name}' has the factor {factor:g}, but type "
@@ -197,6 +218,14 @@ class System:
             )
         except CouplingError as error:
             raise CouplingError(f"'{source.name}' cannot be connected to '{target.name}': {error}") from None
+        missing = unit_checks.turns(
+            source.variable, source.model.description, target.variable, target.model.description
+        )
+        if missing and factor == 1.0:
+            raise CouplingError(
+                f"'{source.name}' in {source.variable.unit} cannot be connected to '{target.name}' in "
+                f"{target.variable.unit}: one counts turns, the other is an angle. Give it the factor {missing!r}."
+            )
         return Connection(source, target, factor * scale, factor * offset)
 
     def _check_targets(self) -> None:
@@ -263,7 +292,7 @@ class System:
             )
         effort, flow = pairs[0]
         a, b = effort.source, flow.source
-        if a.kind != "real" or b.kind != "real":
+        if not (a.continuous and b.continuous):
             raise CouplingError(f"The bond of '{first}' and '{second}' is no power: both must be continuous Real.")
         if a.variable.unit is None or b.variable.unit is None:
             return Bond(effort, flow, 1.0)
@@ -278,7 +307,7 @@ class System:
     def _check_derivatives(self) -> None:
         for (of, by), port in self.derivatives.items():
             three = [self.port(of), self.port(by), port]
-            if len({one.model.name for one in three}) > 1 or any(one.kind != "real" for one in three):
+            if len({one.model.name for one in three}) > 1 or not all(one.continuous for one in three):
                 raise CouplingError(
                     f"'{port.name}' cannot be the derivative of '{of}' by '{by}': the three must be continuous Real "
                     "variables of one FMU."
@@ -289,10 +318,10 @@ def checked(port: Port, value: Any) -> Value:
     """Return a value as the variable's type has it. Raises CouplingError if it is of another."""
     types: dict[str, tuple[type, ...]] = {"boolean": (bool,), "string": (str,), "integer": (int,)}
     fits = isinstance(value, types.get(port.kind, (int, float))) and (port.kind == "boolean") == isinstance(value, bool)
-    if not fits or (port.kind in NUMBERS and not math.isfinite(value)):
-        unit = f", in {port.variable.unit or '1'}" if port.kind in NUMBERS else ""
+    if not fits or (port.kind == "real" and not math.isfinite(value)):
+        unit = f", in {port.variable.unit or '1'}" if port.kind == "real" else ""
         raise CouplingError(f"'{port.name}' = {value!r} is not a value of type {port.variable.type}. Give one{unit}.")
-    return float(value) if port.kind in NUMBERS else value
+    return float(value) if port.kind == "real" else value
 
 
 def _fmu_name(name: str) -> str:
@@ -300,6 +329,12 @@ def _fmu_name(name: str) -> str:
         raise CouplingError(
             f"An FMU cannot be called '{name}': a dot separates it from its variables. Use another name."
         )
+    if name in _OWN:
+        raise CouplingError(
+            f"An FMU cannot be called '{name}': the results have columns '{name}.*' of their own. Use another name."
+        )
+    if any(unicodedata.category(letter) in ("Cc", "Cs") for letter in name):
+        raise CouplingError(f"An FMU cannot be called {name!r}: it has control characters. Use another name.")
     return name
 
 

@@ -28,8 +28,9 @@ class Wiring:
     """The coupled Real variables of a system.
 
     outputs, inputs: the names of all of them; output_of, input_of: where those of an FMU stand; source, factor and
-    offset [inputs]: the source of an input; coupled: the places of the outputs that set one; beside:
-    where the inputs of the FMU of each of these stand.
+    offset [inputs]: the source of an input; sampled [inputs]: it holds between communication points; coupled: the
+    places of the outputs that set an input, also at events alone; beside: where the inputs of the FMU of each of these
+    stand.
     """
 
     def __init__(self, system: System, instances: Mapping[str, Instance]) -> None:
@@ -42,7 +43,9 @@ class Wiring:
         self.source: Places = np.array([self.output_place[c.source.name] for c in wired], dtype=np.intp)
         self.factor = np.array([c.factor for c in wired])
         self.offset = np.array([c.offset for c in wired])
-        self.coupled: Places = np.unique(self.source)
+        self.sampled = np.array([c.sampled for c in wired], dtype=bool)
+        sources = {self.output_place[c.source.name] for c in system.connections if c.source.kind == "real"}
+        self.coupled: Places = np.array(sorted(sources), dtype=np.intp)
         self.beside = [self.input_of[self.outputs[n].partition(".")[0]] for n in self.coupled]
         self._bonds = [
             _Ends(
@@ -83,14 +86,14 @@ def _index(reals: Mapping[str, Reals]) -> tuple[dict[str, slice], list[str]]:
 
 
 def real_inputs(system: System) -> dict[str, list[Port]]:
-    """Return the inputs that Real outputs set, by FMU."""
-    ports = [c.target for c in system.connections if c.source.kind == c.target.kind == "real"]
+    """Return the inputs that Real outputs set in every step, by FMU."""
+    ports = [c.target for c in system.connections if c.coupled]
     return {name: [port for port in ports if port.model.name == name] for name in system.models}
 
 
 def real_outputs(system: System, recorded: list[Port]) -> dict[str, list[Port]]:
     """Return the Real outputs that are read, by FMU: for connections, records, events, bonds and derivatives."""
-    ports = [c.source for c in system.connections if c.source.kind == c.target.kind == "real"]
+    ports = [c.source for c in system.connections]
     ports += [*recorded, *system.events, *system.derivatives.values()]
     ports += [system.port(of) for of, _ in system.derivatives]
     once = {port.name: port for port in ports if port.kind == "real"}

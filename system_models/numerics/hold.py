@@ -16,11 +16,13 @@ Past = tuple[tuple[float, ...], tuple[Array, ...]]
 class History:
     """The newest order + 1 values of the coupled inputs; less after an event, and the order of hold with them.
 
+    sampled [size]: which inputs hold their values between communication points, whatever the order; by default none.
     Nothing stored is ever changed, so that a copy costs nothing and restores exactly.
     """
 
-    def __init__(self, order: int) -> None:
+    def __init__(self, order: int, sampled: NDArray[np.bool_] | None = None) -> None:
         self._order = order
+        self._sampled = sampled if sampled is not None and sampled.any() else None
         self._times: tuple[float, ...] = ()  # [s], newest first
         self._differences: tuple[Array, ...] = ()  # [j]: divided difference over the newest j + 1 times
 
@@ -52,7 +54,7 @@ class History:
     def extrapolate(self) -> Array:
         """Return coefficients of the polynomial through the stored values; there must be at least one."""
         now = self._times[0]
-        return _expanded(self._differences, [time - now for time in self._times])
+        return self._held(_expanded(self._differences, [time - now for time in self._times]), self._differences[0])
 
     def interpolate(self, step: float, end: Array, entries: slice = slice(None)) -> Array:
         """Return coefficients of the polynomial through the newest stored values and `end`, a `step` [s] from now.
@@ -63,7 +65,15 @@ class History:
             return end[None].copy()
         now = self._times[0]
         differences = self._extended(now + step, end, entries)
-        return _expanded(differences, [step, *(time - now for time in self._times)])
+        return self._held(_expanded(differences, [step, *(time - now for time in self._times)]), end, entries)
+
+    def _held(self, coefficients: Array, values: Array, entries: slice = slice(None)) -> Array:
+        """Return the coefficients, those of sampled inputs for `values` that do not change."""
+        if self._sampled is not None:
+            sampled = self._sampled[entries]
+            coefficients[0, sampled] = values[sampled]
+            coefficients[1:, sampled] = 0.0
+        return coefficients
 
     def _extended(self, time: float, values: Array, entries: slice = slice(None)) -> tuple[Array, ...]:
         """Return divided differences, up to the order, with one more time."""

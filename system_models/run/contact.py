@@ -4,7 +4,6 @@ The rig prescribes load, speeds and temperature, so nothing flows back and no it
 over each communication step, and the outputs at its end are recorded.
 """
 
-import logging
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING
 from dataclasses import fields as fields_of
@@ -27,11 +26,10 @@ from ..store.results import to_dataset
 from .duty import Duty
 from .fields import Fields
 
-log = logging.getLogger(__name__)
-
 _NAME = "contact"  # of the FMU in its system
 _INPUTS = {f.name: f.default for f in fields_of(OperatingPoint)}  # inputs that a duty may set, and their defaults
 _MOST_STEPS = 1_000_000
+_SAME = 1e-9  # of an interval: times closer than that are one, as for the master
 
 
 def run(
@@ -74,7 +72,6 @@ def run(
         progress=progress,
         observe=_observer(points[-1], fields, at_end),
     )
-    _warn_of_invalid_rows(found)
     return to_dataset(
         found["time"].values,
         {v.name: found[_port(v)].values for v in recorded},
@@ -101,6 +98,8 @@ def _observer(end: float, fields: Fields | None, at_end: Callable[[bytes], None]
 def communication_points(duty: Duty, duration: float, interval: float) -> list[float]:
     """Return times [s] from 0 to `duration`: every `interval`, every change of the duty, and the end.
 
+    Changes that rounding parts are one.
+
     Raises ContactError if either is not above zero, or the interval cuts the duration into too many steps.
     """
     if not (0.0 < duration < np.inf and interval >= duration / _MOST_STEPS):
@@ -112,7 +111,9 @@ def communication_points(duty: Duty, duration: float, interval: float) -> list[f
     changes = np.array([*(time for time in duty.times if time < duration), duration])
     # a multiple of the interval may miss a change by a rounding error only: then the change stands for both
     apart = np.abs(regular[:, None] - changes).min(axis=1) > 1e-9 * duration
-    return [float(time) for time in np.union1d(regular[apart], changes)]
+    times = np.union1d(regular[apart], changes)
+    times = times[np.diff(times, prepend=-np.inf) > _SAME * min(interval, duration)]
+    return [*map(float, times[:-1]), float(duration)]
 
 
 def _port(variable: ModelVariable) -> str:
@@ -154,14 +155,3 @@ def _held(point: OperatingPoint, variable: ModelVariable) -> float:
     value = getattr(point, variable.name)
     open_value = point.temperature if variable.unit == "K" else variable.start
     return float(open_value if value is None else value)
-
-
-def _warn_of_invalid_rows(dataset: xr.Dataset) -> None:
-    invalid = dataset["time"].values[~dataset[f"{_NAME}.valid"].values]
-    if len(invalid):
-        log.warning(
-            "%d of %d rows are invalid, the first at %g s: the outputs stand as they were before.",
-            len(invalid),
-            dataset.sizes["time"],
-            invalid[0],
-        )

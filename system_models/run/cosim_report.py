@@ -42,6 +42,11 @@ def _short(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, (float, int)) and not isinstance(value, bool) else str(value)
 
 
+def printable(text: str) -> str:
+    """Return a text in one line, without characters that a terminal would obey."""
+    return "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in text)
+
+
 def costs(dataset: xr.Dataset) -> str:
     """Return steps and time of each FMU."""
     cost = json.loads(dataset.attrs["cost"])
@@ -56,7 +61,7 @@ def costs(dataset: xr.Dataset) -> str:
 
 def aligned(rows: list[list[str]], left: int) -> list[str]:
     """Return rows of a table; the first `left` columns are words."""
-    columns = list(zip(*rows, strict=True))
+    columns = list(zip(*([printable(cell) for cell in row] for row in rows), strict=True))
     widths = [max(map(len, column)) for column in columns]
     padded = [
         [cell.ljust(width) if n < left else cell.rjust(width) for cell in column]
@@ -70,9 +75,22 @@ def unreliable_steps(dataset: xr.Dataset) -> int:
     return int(dataset.attrs["unconverged"]) + int(dataset.attrs["below_min_step"])
 
 
+def validity(dataset: xr.Dataset) -> list[str]:
+    """Return a warning if FMUs could not use their inputs in some rows."""
+    counts = dataset.attrs
+    if not counts["invalid"]:
+        return []
+    line = (
+        f"WARNING: {counts['invalid']} of {dataset.sizes['time']} rows are INVALID: {counts['invalid_by']} could not "
+        "use the inputs and kept the outputs from before. Column `valid` says in which rows, messages of the FMUs why."
+    )
+    return [printable(line)]
+
+
 def closing_lines(dataset: xr.Dataset) -> list[str]:
     """Return steps, iterations, events, power residuals and warnings, in sentences."""
-    return [_steps(dataset), *_iterations(dataset), *_events(dataset), *_bonds(dataset), *_warnings(dataset)]
+    lines = [_steps(dataset), *_iterations(dataset), *_events(dataset), *_bonds(dataset), *_warnings(dataset)]
+    return [printable(line) for line in lines]
 
 
 def _steps(dataset: xr.Dataset) -> str:
@@ -163,7 +181,7 @@ def overview(dataset: xr.Dataset) -> "Figure":
         axis.set_xlabel("time [s]")
         axis.tick_params(labelbottom=True)
     more = f", {len(shown) - _MOST_PANELS} more in the files" if len(shown) > _MOST_PANELS else ""
-    figure.suptitle(f"{dataset.attrs.get('title', '')}{more}", fontsize="medium")
+    figure.suptitle(printable(f"{dataset.attrs.get('title', '')}{more}"), fontsize="medium", parse_math=False)
     return figure
 
 
@@ -179,6 +197,6 @@ def _draw(axis: "Axes", variable: xr.DataArray) -> None:
     if kind == "b":
         axis.set(ylim=(-0.1, 1.1), yticks=(0.0, 1.0), yticklabels=("false", "true"))
     title = name.removeprefix("master.") + ("" if unit == "1" else f" [{unit}]")
-    axis.set_title(title, fontsize="medium", loc="left")
+    axis.set_title(printable(title), fontsize="medium", loc="left", parse_math=False)
     axis.margins(x=0.0)
     axis.spines[["top", "right"]].set_visible(False)

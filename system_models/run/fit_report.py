@@ -226,6 +226,7 @@ def figure(fit: Fit) -> "Figure":
     drawn.suptitle(
         f"{fit.measured.source} in {fit.scene.name}, level {fit.level}; bands: {_PERCENT} of measurements",
         fontsize="medium",
+        parse_math=False,
     )
     return drawn
 

@@ -188,7 +188,7 @@ def overview(dataset: xr.Dataset) -> "Figure":
     for axis in axes[-1]:
         axis.set_xlabel("time [min]")
     figure.align_ylabels()
-    figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium")
+    figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium", parse_math=False)
     return figure
 
 

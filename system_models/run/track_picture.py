@@ -77,7 +77,7 @@ def picture(dataset: xr.Dataset, maps: xr.Dataset) -> "Figure":
     marked = dataset.sel(time=maps[TIME].values)
     _draw_course(courses[0], dataset, marked, "coverage", 100.0, "coverage of the track [%]")
     _draw_course(courses[1], dataset, marked, "tribofilm", 1e9, "mean tribofilm [nm]")
-    figure.suptitle(dataset.attrs.get("title", ""), fontsize="large")
+    figure.suptitle(dataset.attrs.get("title", ""), fontsize="large", parse_math=False)
     return figure
 
 

@@ -1,6 +1,9 @@
 """Results as an xarray Dataset along `time` [s], as a netCDF file and as a CSV file."""
 
 import csv
+import re
+import unicodedata
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -13,7 +16,12 @@ from numpy.typing import ArrayLike
 from contact_core.quantities import ABSOLUTE, STATED
 
 ERROR = "_error"  # after the name of an output: the half width of its error
+NAME = "name_in_full"  # attribute of a variable in a file whose name netCDF cannot take
 BAND = "_band"  # after the name of an output of an ensemble: the half width of its mean by the scatter of the members
+
+
+_FOREIGN = re.compile(r"^[^\w\x80-\U0010ffff]|[\x00-\x1f\x7f/]|\s+$")
+_LONGEST = 256  # bytes of a name in netCDF
 
 
 def to_dataset(
@@ -43,7 +51,8 @@ def with_half_widths(dataset: xr.Dataset) -> xr.Dataset:
         prefix, output = str(name).rpartition(".")[::2]
         stated = STATED.get(output, "")
         source = f"{prefix}.{stated}" if prefix else stated
-        if stated and source in dataset:
+        numbers = all(dataset.variables[key].dtype.kind in "fiu" for key in (name, source) if key in dataset)
+        if stated and source in dataset and numbers and f"{name}{ERROR}" not in dataset.data_vars:
             half = dataset.variables[source].values * (1.0 if stated in ABSOLUTE else np.abs(variable.values))
             text = f"half width (95 %) of the error of {name}"
             attributes = {"units": variable.attrs.get("units", "1"), "long_name": text}
@@ -70,7 +79,9 @@ def half_width(dataset: xr.Dataset, name: str) -> np.ndarray | None:
 def read(file: Path) -> xr.Dataset:
     """Return what is in a netCDF file. Raises OSError or ValueError if there is none or it was cut."""
     with xr.open_dataset(file, engine="netcdf4", decode_times=False) as opened:
-        return opened.load()
+        dataset = opened.load()
+    full = {str(name): dataset[name].attrs.pop(NAME) for name in dataset.variables if NAME in dataset[name].attrs}
+    return _renamed(dataset, full)
 
 
 def find(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:
@@ -100,17 +111,50 @@ def write(
 ) -> list[Path]:
     """Write `name`.nc and `name`.csv into an existing folder and return their paths.
 
-    The CSV has a row for each point of the dataset's dimensions; variables constant along one of them are repeated.
+    A name that netCDF cannot take is replaced in its file, where the attribute NAME has it; `read` gives it back. The
+    CSV has a row for each point of the dataset's dimensions; variables constant along one of them are repeated.
     `maps` go into the netCDF only; `table` replaces the dataset in the CSV.
     """
     netcdf, text = folder / f"{name}.nc", folder / f"{name}.csv"
     rows = dataset if table is None else table
     unfinished = netcdf.with_suffix(".new")
     whole = dataset if maps is None else dataset.merge(maps, combine_attrs="override")
-    whole.to_netcdf(unfinished, engine="netcdf4")
+    _storable(whole).to_netcdf(unfinished, engine="netcdf4")
     unfinished.replace(netcdf)  # a kill leaves the old file or the new one
     write_csv(rows, text)
     return [netcdf, text]
+
+
+def _storable(dataset: xr.Dataset) -> xr.Dataset:
+    """Return the dataset with names that netCDF takes."""
+    changed = {name: _short(name) for name in map(str, dataset.variables) if not _fits(name, name in dataset.coords)}
+    found = _renamed(dataset, changed)
+    for name, short in changed.items():
+        found.variables[short].attrs[NAME] = name
+    return found
+
+
+def _renamed(dataset: xr.Dataset, names: Mapping[str, str]) -> xr.Dataset:
+    """Return the dataset with other names, also where an attribute refers to them."""
+    if not names:
+        return dataset
+    found = dataset.rename(names)
+    for variable in found.variables.values():
+        other = variable.attrs.get("ancillary_variables", "")
+        if other in names:
+            variable.attrs = variable.attrs | {"ancillary_variables": names[other]}
+    return found
+
+
+def _fits(name: str, coordinate: bool) -> bool:
+    """Return True if netCDF takes a name as it is; xarray lists coordinates, with spaces between."""
+    whole = len(name.encode()) <= _LONGEST and unicodedata.is_normalized("NFC", name)
+    return whole and not _FOREIGN.search(name) and not (coordinate and " " in name)
+
+
+def _short(name: str) -> str:
+    """Return what a name begins with, in letters that fit, and a number that tells it from others."""
+    return f"{re.sub(r'[^A-Za-z0-9_.]', '_', name)[:100].lstrip('.')}_{zlib.crc32(name.encode()):08x}"
 
 
 def write_csv(rows: xr.Dataset, path: Path) -> Path:

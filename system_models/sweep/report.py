@@ -214,7 +214,8 @@ def write_picture(plan: Plan, dataset: xr.Dataset, file: Path) -> Path:
     for axis in axes.flat[len(columns) :] if not plan.sampled else ():
         axis.set_axis_off()
     title = textwrap.fill(dataset.attrs["title"], 40 * across)
-    figure.suptitle(f"{title}\nat the end of each run; bands and bars: stated errors (95 %)", fontsize=9)
+    bars = "at the end of each run; bands and bars: stated errors (95 %)"
+    figure.suptitle(f"{title}\n{bars}", fontsize=9, parse_math=False)
     figure.savefig(file, dpi=120)
     return file
 
@@ -249,4 +250,5 @@ def _curves(axis: "Axes", plan: Plan, last: xr.Dataset, name: str, factor: float
                 axis.errorbar(where, values, width, fmt="none", ecolor=line.get_color(), lw=1)
     axis.set_xlabel(f"{along.key} [{last[along.key].attrs['units']}]" if numbers else along.key)
     if others and legend:
-        axis.legend(fontsize=6)
+        for text in axis.legend(fontsize=6).get_texts():
+            text.set_parse_math(False)

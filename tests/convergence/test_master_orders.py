@@ -108,25 +108,27 @@ def test_no_more_than_the_second_order_is_there_with_a_held_mean(folder, kind, o
     assert last_order(found) == approx(2, abs=0.15)
 
 
-@pytest.mark.parametrize("iterate", [None, "quasi_newton"])
+ITERATED = {"iterate": "quasi_newton", "iteration_tolerance": 1e-11}
+
+
+@pytest.mark.parametrize("options", [{}, ITERATED])
 @pytest.mark.parametrize("order", [0, 1, 2])
-def test_fmi_3_asks_for_what_fmi_2_is_given(folder, order, iterate):
-    options = {"iterate": iterate, "iteration_tolerance": 1e-11}
+def test_fmi_3_asks_for_what_fmi_2_is_given(folder, order, options):
     two = run(systems.two_mass_force(folder), 0.02, "jacobi", order, **options)
     three = run(systems.two_mass_force(folder, fmi=3, intermediate=True), 0.02, "jacobi", order, **options)
-    assert three == approx(two, rel=1e-9 if iterate else 1e-12)
+    assert three == approx(two, rel=1e-9 if options else 1e-12)
 
 
-@pytest.mark.parametrize("iterate", [None, "quasi_newton"])
-def test_fmi_3_asks_for_what_fmi_2_is_given_also_after_a_change_of_the_schedule(folder, iterate):
+@pytest.mark.parametrize("options", [{}, ITERATED])
+def test_fmi_3_asks_for_what_fmi_2_is_given_also_after_a_change_of_the_schedule(folder, options):
     """Derivatives that FMI 2 was told before it would stay where no others of that order are told."""
     found = []
     for variant in ({}, {"fmi": 3, "intermediate": True}):
         system, states, _ = systems.quarter_car_force(folder, **variant)
         system.schedule = {"wheel.road": [(0.0, 0.1), (0.3, 0.2), (0.31, -0.1)]}
-        end = simulate(system, 0.4, 0.01, order=2, iterate=iterate, iteration_tolerance=1e-11, outputs=states)
+        end = simulate(system, 0.4, 0.01, order=2, **options, outputs=states)
         found.append([float(end[name].values[-1]) for name in states])
-    assert found[1] == approx(found[0], rel=1e-9 if iterate else 1e-12)
+    assert found[1] == approx(found[0], rel=1e-9 if options else 1e-12)
 
 
 def test_fmi_3_without_intermediate_inputs_holds_the_mean(folder):

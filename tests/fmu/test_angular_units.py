@@ -10,7 +10,7 @@ import pytest
 from benchmarks.models import build as build_model
 from contact_core import Scene
 from fmu_src.package.build import build
-from system_models.master import System, export_ssp, simulate
+from system_models.master import CouplingError, System, export_ssp, simulate
 from system_models.parts.build import build as build_part
 from system_models.parts.shaft import Shaft
 
@@ -63,6 +63,20 @@ def test_a_component_gives_its_speed_to_a_target_with_rad_and_without(unit: str,
     system = System({"shaft": shaft, "target": target}, [("shaft.speed", "target.u")])
     result = simulate(system, 0.01, 0.01, outputs=["target.y"])
     assert result["target.y"].values[0] == 25.0
+
+
+def test_turns_are_connected_to_angles_by_a_factor_alone(contact: Path, folder: Path) -> None:
+    path = build_model("gain", folder, unit_y="1/s")
+    source = path.with_name("hertz.fmu")
+    with zipfile.ZipFile(path) as archive, zipfile.ZipFile(source, "w") as changed:
+        for name in archive.namelist():
+            content = archive.read(name)
+            changed.writestr(name, content.replace(b'"1/s"', b'"Hz"') if name.endswith(".xml") else content)
+    fmus = {"source": source, "contact": contact}
+    with pytest.raises(CouplingError, match=r"one counts turns.*Give it the factor 6\.283185307179586"):
+        System(fmus, [("source.y", "contact.spin")])
+    (connection,) = System(fmus, [("source.y", "contact.spin", 6.283185307179586)]).connections
+    assert (connection.factor, connection.offset) == (6.283185307179586, 0.0)
 
 
 def test_an_exported_system_says_the_same(contact: Path, folder: Path) -> None:

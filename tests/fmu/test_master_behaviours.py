@@ -11,6 +11,8 @@ import pytest
 import xarray as xr
 from built import Built
 from comparison import approx
+from fmpy.fmi1 import FMICallException, fmi1Error
+from fmpy.fmi3 import FMU3Slave
 
 from benchmarks.models import build
 from system_models.master import CouplingError, System, simulate
@@ -172,9 +174,8 @@ def test_bounces_are_found_to_min_step(folder):
 
 def test_an_event_is_not_stepped_over_by_error_control(folder):
     fmus = {"teeth": build("tooth", folder, start={"period": 0.0301}), "mass": build("mass_1_force", folder)}
-    result = simulate(
-        System(fmus, events=["teeth.tooth"]), 0.2, 0.05, tolerance=1e-3, min_step=1e-8, outputs=["teeth.tooth"]
-    )
+    system = System(fmus | {"mm": build("millimetre", folder)}, [("mass.x", "mm.u")], events=["teeth.tooth"])
+    result = simulate(system, 0.2, 0.05, tolerance=1e-3, min_step=1e-8, outputs=["teeth.tooth"])
     found, expected = event_times(result, "teeth.tooth"), 0.0301 * np.arange(1, 7)
     assert len(found) == 6
     assert found == approx(expected, abs=2e-8)
@@ -203,6 +204,39 @@ def test_an_announced_event_is_met_where_a_step_cannot_end_early(folder):
     result = simulate(System(fmus, parameters={"early.u": 1.0}), 1.0, 0.1, outputs=["early.y", "early.events"])
     assert event_times(result, "early.events") == approx(0.26 * np.arange(1, 4), abs=1e-12)
     assert result.attrs["events"] == 3
+
+
+def test_event_mode_that_is_claimed_wrongly_is_left_out(folder, tmp_path, caplog):
+    plain = build("gain", folder, fmi=3)
+    claims = rewritten(plain, tmp_path / "claims.fmu", b'hasEventMode="false"', b'hasEventMode="true"')
+    result = simulate(System({"a": claims}, parameters={"a.u": 2.0, "a.a": 3.0}), 0.2, 0.1)
+    assert result["a.y"].values == approx([6.0] * 3)
+    (warning,) = (record for record in caplog.records if "event mode" in record.message)
+    assert warning.message == "The FMU 'a' claims to have event mode and refuses it: it goes on without."
+
+
+def test_event_mode_that_fails_at_the_start_is_left_out(folder, monkeypatch, caplog):
+    """The FMU is begun again with the values that it had been given."""
+
+    def refused(self: FMU3Slave) -> None:
+        raise FMICallException("fmi3UpdateDiscreteStates", fmi1Error)
+
+    monkeypatch.setattr(FMU3Slave, "updateDiscreteStates", refused)
+    early = build("early", folder, fmi=3, start={"period": 0.26})
+    gain = build("gain", folder, fmi=3, unit_u="m", unit_y="m/s")
+    system = System({"early": early, "gain": gain}, [("gain.y", "early.u")], {"early.jump": 5.0, "gain.b": 1.0})
+    result = simulate(system, 0.5, 0.1, outputs=["early.y", "early.events"])
+    assert result["early.events"].values[-1] == 1
+    assert result["early.y"].values[-1] == approx(0.5 + 5.0)
+    assert "it goes on without" in caplog.text
+
+
+def test_an_fmu_that_does_not_start_at_all_is_told_with_the_first_reason(folder, tmp_path):
+    other = rewritten(
+        build("early", folder, fmi=3), tmp_path / "other.fmu", b'instantiationToken="', b'instantiationToken="x'
+    )
+    with pytest.raises(CouplingError, match="'a' failed to start"):
+        simulate(System({"a": other}), 0.2, 0.1)
 
 
 def test_a_scheduled_value_is_met_exactly(folder):

@@ -74,6 +74,12 @@ def test_a_direct_loop_is_warned_of_unless_it_is_iterated(folder: Path, caplog: 
     assert "a.u, b.u depend on one another without delay" in message
 
 
+def measured(folder: Path, motion: dict[str, float]) -> System:
+    """A mass whose place is an event, and an FMU that reads it."""
+    fmus = {"m": build("point_mass", folder), "mm": build("millimetre", folder)}
+    return System(fmus, [("m.x", "mm.u")], motion, events=["m.x"])
+
+
 @pytest.mark.parametrize("options", [{}, {"tolerance": 1e-3}, {"tolerance": 1e-3, "order": 1}])
 @pytest.mark.parametrize("step", [0.25, 0.3125, 0.5, 1.0])
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
@@ -81,8 +87,7 @@ def test_a_crossing_is_found_wherever_the_steps_meet_zero(
     folder: Path, step: float, sign: float, options: dict[str, float]
 ) -> None:
     motion = {"m.m": 1.0, "m.F0": 0.0, "m.x0": -sign, "m.v0": sign}
-    system = System({"m": build("point_mass", folder)}, parameters=motion, events=["m.x"])
-    result = simulate(system, 2.0, step, outputs=["m.x"], **options)
+    result = simulate(measured(folder, motion), 2.0, step, outputs=["m.x"], **options)
     sides = result["m.x"].values > 0.0
     assert result.attrs["events"] == 1
     assert result["time"].values[np.flatnonzero(np.diff(sides)) + 1] == approx(1.0, abs=1e-6)
@@ -90,8 +95,7 @@ def test_a_crossing_is_found_wherever_the_steps_meet_zero(
 
 def test_a_crossing_in_the_second_half_of_the_first_step_is_found(folder: Path) -> None:
     motion = {"m.m": 1.0, "m.F0": -2.0, "m.x0": 0.0, "m.v0": 1.0}  # x = t - t^2
-    system = System({"m": build("point_mass", folder)}, parameters=motion, events=["m.x"])
-    assert simulate(system, 1.5, 1.5, tolerance=1e-3).attrs["events"] == 1
+    assert simulate(measured(folder, motion), 1.5, 1.5, tolerance=1e-3).attrs["events"] == 1
 
 
 def test_an_fmu_of_one_step_size_gets_no_other(folder: Path) -> None:

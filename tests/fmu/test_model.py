@@ -7,7 +7,7 @@ import pytest
 from comparison import approx
 
 from benchmarks.models import build
-from system_models.fmu.kinds import kind
+from system_models.fmu.kinds import discrete, kind
 from system_models.fmu.model import Model
 from system_models.master.system import System
 
@@ -62,13 +62,14 @@ def test_a_difference_of_temperatures_is_taken_as_one(tmp_path: Path, fmi: int, 
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
-def test_a_discrete_real_is_passed_on_at_communication_points_alone(tmp_path: Path, fmi: int) -> None:
+def test_a_discrete_real_holds_its_value_between_communication_points(tmp_path: Path, fmi: int) -> None:
     path = build("gain", tmp_path, fmi)
     model = Model(
         "a", edited(path, ('causality="input" variability="continuous"', 'causality="input" variability="discrete"'))
     )
-    assert kind(model.variables["u"]) == "float"
-    assert kind(model.variables["y"]) == "real"
+    assert kind(model.variables["u"]) == kind(model.variables["y"]) == "real"
+    assert discrete(model.variables["u"])
+    assert not discrete(model.variables["y"])
 
 
 def test_inputs_that_may_be_set_within_a_step_are_known(tmp_path: Path) -> None:

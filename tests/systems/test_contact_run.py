@@ -28,6 +28,8 @@ def duty_at(*times: float) -> Duty:
 
 def test_rows_come_at_intervals_at_changes_and_at_the_end() -> None:
     assert communication_points(duty_at(0.0, 30.0, 50.0), 100.0, 40.0) == [0.0, 30.0, 40.0, 50.0, 80.0, 100.0]
+    near = duty_at(0.0, 1e-17, 30.0, 30.000000000000004, 99.99999999999999)
+    assert communication_points(near, 100.0, 1e9) == [0.0, 30.0, 100.0]
 
 
 def test_the_last_step_is_shortened_to_the_duration() -> None:

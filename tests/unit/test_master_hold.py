@@ -45,6 +45,24 @@ def test_polynomials_up_to_the_order_are_reproduced(case):
         assert mean(held, step) == approx(integral(now, now + step) / step, rel=1e-9, abs=1e-7)
 
 
+@given(cases())
+def test_sampled_inputs_hold_their_values_and_others_do_not_notice(case):
+    order, coefficients, times, step = case
+    u, _ = polynomial(coefficients)
+    free, history = History(order), History(order, np.array([False, True]))
+    for time in times:
+        for each in (free, history):
+            each.push(time, u(time))
+    now, end = u(times[-1]), u(times[-1] + step)
+    for held, plain, value_held in (
+        (history.extrapolate(), free.extrapolate(), now[1]),
+        (history.interpolate(step, end), free.interpolate(step, end), end[1]),
+    ):
+        assert np.array_equal(held[:, 0], plain[:, 0])
+        assert held[:, 1].tolist() == [value_held, *[0.0] * order]
+    assert history.interpolate(step, end[1:], slice(1, 2)).tolist() == [[end[1]], *[[0.0]] * order]
+
+
 @pytest.mark.parametrize("order", ORDERS)
 def test_extrapolation_is_of_one_order_more_than_its_degree(order):
     def error(step):

@@ -7,13 +7,14 @@ import numpy as np
 from system_models.master.recorder import Recorder
 
 PORTS = [
-    SimpleNamespace(name="a.x", kind="real", variable=SimpleNamespace(unit="m", description="place")),
-    SimpleNamespace(name="a.on", kind="boolean", variable=SimpleNamespace(unit=None, description="")),
+    SimpleNamespace(name="a.x", kind="real", variable=SimpleNamespace(type="Real", unit="m", description="place")),
+    SimpleNamespace(name="a.on", kind="boolean", variable=SimpleNamespace(type="Boolean", unit=None, description="")),
+    SimpleNamespace(name="a.n", kind="integer", variable=SimpleNamespace(type="UInt64", unit=None, description="")),
 ]
 ROWS = [
-    (0.0, [0.5, True], (0.0, 0.0, 0.0, 0.0)),
-    (0.1, [0.1 + 0.2, False], (0.1, 3.0, 0.7, 0.2)),
-    (0.3, [-1.0, True], (0.2, 1.0, 0.0, 0.9)),
+    (0.0, [0.5, True, 0], (0.0, 0.0, 0.0, 0.0)),
+    (0.1, [0.1 + 0.2, False, 1], (0.1, 3.0, 0.7, 0.2)),
+    (0.3, [-1.0, True, 2**64 - 1], (0.2, 1.0, 0.0, 0.9)),
 ]
 
 
@@ -35,6 +36,7 @@ def test_restored_rows_stand_in_their_order_before_new_ones() -> None:
     assert found.identical(expected)
     assert found["a.x"].values.tolist() == [0.5, 0.1 + 0.2, -1.0]
     assert found["a.on"].values.tolist() == [True, False, True]
+    assert found["a.n"].values.tolist() == [0, 1, 2**64 - 1]
     assert found["master.iterations"].values.tolist() == [0.0, 3.0, 1.0]
 
 

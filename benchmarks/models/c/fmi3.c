@@ -119,6 +119,7 @@ static Status check_mode(Instance *it)
     }
 
 NUMBER(Float64, 'R')
+NUMBER(Float32, 'R') /* for descriptions that call a Real so */
 NUMBER(Int32, 'I')
 NUMBER(Boolean, 'B')
 

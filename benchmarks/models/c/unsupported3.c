@@ -7,7 +7,6 @@
 NO_INSTANCE(fmi3InstantiateModelExchange)
 NO_INSTANCE(fmi3InstantiateScheduledExecution)
 
-NO_TYPE(Float32)
 NO_TYPE(Int8)
 NO_TYPE(UInt8)
 NO_TYPE(Int16)

@@ -83,7 +83,7 @@ def _figure(run: BearingRun, size: tuple[float, float]) -> "Figure":
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=size, layout="constrained")
-    figure.suptitle(run.dataset.attrs.get("title", run.assembly.description), fontsize="medium")
+    figure.suptitle(run.dataset.attrs.get("title", run.assembly.description), fontsize="medium", parse_math=False)
     return figure
 
 

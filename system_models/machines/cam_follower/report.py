@@ -41,7 +41,7 @@ def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
     record, written = Record(assembly, dataset), []
     for name, draw in pictures.FIGURES.items():
         figure = draw(record)
-        figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium")
+        figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium", parse_math=False)
         figure.savefig(folder / f"{name}.png", dpi=150)
         written.append(folder / f"{name}.png")
     return written
