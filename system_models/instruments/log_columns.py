@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from contact_core.errors import ContactError
-from contact_core.quantities import TABLE
+from contact_core.quantities import TABLE, measured_range
 from contact_core.scene import units
 from contact_core.scene.toml import did_you_mean
 
@@ -19,6 +19,12 @@ from contact_core.scene.toml import did_you_mean
 # in exports, tell which body is faster
 OF_RIGS = {
     "time": "s", "rolling_speed": "m/s", "sliding_speed": "m/s", "srr": "1", "ball_speed": "1", "disc_speed": "1"
+}  # fmt: skip
+
+# least and largest value of these; of ball and disc speeds, which have no unit, only the signs matter
+_OF_RIGS = {
+    "time": (0.0, 1e9), "rolling_speed": (-100.0, 100.0), "sliding_speed": (-200.0, 200.0), "srr": (-100.0, 100.0),
+    "ball_speed": (-1e9, 1e9), "disc_speed": (-1e9, 1e9),
 }  # fmt: skip
 
 # name of a column in small letters: its quantity. Where two name one quantity, the first of this list is taken
@@ -88,6 +94,11 @@ class Column:
     header: str
     quantity: str
     unit: str
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Least and largest value in SI that can have been measured."""
+        return _OF_RIGS.get(self.quantity) or measured_range(TABLE[self.quantity])
 
     @property
     def si(self) -> str:

@@ -46,6 +46,7 @@ class Log:
     name: str
     steps: list[Step]
     left_out: list[str]  # sentences on columns, each once
+    outside: list[str] = field(default_factory=list)  # sentences on cells that cannot have been measured
 
     def taken(self) -> list[str]:
         """Return words on each column that is taken, each once."""
@@ -68,17 +69,28 @@ def read(path: Path, names: Mapping[str, tuple[str, str | None]]) -> Log:
     _check_decimals(path, lines, mark)
     steps: list[Step] = []
     left: dict[str, None] = {}
+    outside: dict[Column, list[str]] = {}
     for title, kind, headers, rows in _tables(lines, mark, names):
         filled = [any(_NUMBER.match(row[i]) for row in rows if i < len(row)) for i in range(len(headers))]
         columns, sentences = log_columns.taken(headers, names, filled)
         left |= dict.fromkeys(sentences)
-        steps.append(Step(title, columns, [_row(cells, columns) for cells in rows], kind))
+        steps.append(Step(title, columns, [_row(cells, columns, outside) for cells in rows], kind))
     if not steps:
         raise ContactError(
             f"'{path}' has no table with a known column, such as 'Rolling Speed (mm/s)' or 'Traction Coeff (-)'. "
             "Export it as text with headers, or name its columns by --column 'HEADER=QUANTITY [unit]'."
         )
-    return Log(path.name, steps, list(left))
+    return Log(path.name, steps, list(left), [_told(column, cells) for column, cells in outside.items()])
+
+
+def _told(column: Column, cells: list[str]) -> str:
+    """Return a sentence on the cells of a column that cannot have been measured."""
+    least, most = column.limits
+    unit = "" if column.si == "1" else f" {column.si}"
+    return (
+        f"'{column.header}': cells that are not from {least:g} to {most:g}{unit}, as {column.quantity} is, count as "
+        f"not measured: {len(cells)}, such as {cells[0]}."
+    )
 
 
 def _tables(
@@ -141,11 +153,17 @@ def _check_decimals(path: Path, lines: list[str], mark: str) -> None:
         )
 
 
-def _row(cells: list[str], columns: list[Column | None]) -> dict[str, float]:
+def _row(cells: list[str], columns: list[Column | None], outside: dict[Column, list[str]]) -> dict[str, float]:
+    """Return the numbers of a row in SI; cells that cannot have been measured are added to `outside`."""
     found = {}
     for i, column in enumerate(columns):
         if column is not None:
             cell = cells[i] if i < len(cells) else ""
             number = float(cell.replace(",", ".")) if _NUMBER.match(cell) else math.nan
-            found[column.quantity] = column.value(number) if math.isfinite(number) else math.nan
+            value = column.value(number) if math.isfinite(number) else number
+            least, most = column.limits
+            if not (math.isnan(value) or least <= value <= most):
+                outside.setdefault(column, []).append(cell)
+                value = math.nan
+            found[column.quantity] = value
     return found

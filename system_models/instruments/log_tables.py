@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from contact_core.errors import ContactError
+from contact_core.quantities import TABLE
 
 from .log_columns import OF_RIGS
 from .log_file import Log, Step
@@ -57,12 +58,18 @@ def rows_of(log: Log, chosen: Sequence[int], faster: int | None, srr: float | No
         for k, row in enumerate(step.rows):
             inputs = {name: held[name][k] for name in INPUTS if name in held}
             measured = {name: x for name, x in row.items() if name not in _OF_SPEEDS and math.isfinite(x)}
-            if all(math.isfinite(x) for x in (*inputs.values(), times[k])):
+            if math.isfinite(times[k]) and all(map(_can_be, inputs, inputs.values())):
                 rows.append(Row(begin + times[k], inputs, measured))
-        if times:
-            last = times[-1] - times[-2] if len(times) > 1 else 1.0
-            begin += times[-1] + last if step.has("time") else 0.0
+        known = [time for time in times if math.isfinite(time)]
+        if known:
+            last = known[-1] - known[-2] if len(known) > 1 else 1.0
+            begin += known[-1] + last if step.has("time") else 0.0
     return rows
+
+
+def _can_be(name: str, value: float) -> bool:
+    """Return whether an input is a number that the contact takes."""
+    return TABLE[name].minimum <= value <= TABLE[name].maximum
 
 
 def duty(rows: Sequence[Row]) -> list[list[str]]:
@@ -206,6 +213,4 @@ def _cell(name: str, value: float | None) -> str:
 
 
 def _si(name: str) -> str:
-    from contact_core.quantities import TABLE
-
     return TABLE[name].unit or "1"
