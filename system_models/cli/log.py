@@ -75,7 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
     refuse_existing(tables, arguments.force)
     written = [log_tables.write(table, path) for path, table in tables.items()]
     if not duty:
-        note("No duty: inputs change, but there is no column of time to say when.")
+        note(f"No duty: {log_tables.no_duty(rows)}.")
     tests = {tuple(row.inputs.items()) for row in rows if row.measured}
     if data and len(tests) > 1:
         note(

@@ -6,6 +6,7 @@ that users have published, such as the test data of the Python package `tribolog
 others.
 """
 
+import itertools
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -162,6 +163,30 @@ def taken(
     return columns, left
 
 
+def with_units(headers: Sequence[str], units_below: Sequence[str]) -> list[str]:
+    """Return headers with units from elsewhere, where they say none of their own."""
+    pairs = itertools.zip_longest(headers, units_below[: len(headers)], fillvalue="")
+    return [f"{header.strip()} ({unit})" if unit and _parts(header)[1] is None else header for header, unit in pairs]
+
+
+def are_units(cells: Sequence[str]) -> bool:
+    """Return whether the cells of a line are units, such as s, [N] or -, or empty."""
+    given = [cell for cell in cells if cell]
+    return bool(given) and all(map(_is_unit, given))
+
+
+def _is_unit(text: str) -> bool:
+    try:
+        return _ascii(text) == "degC" or bool(units.unit(_ascii(text)))
+    except ContactError:
+        return False
+
+
+def _ascii(unit: str) -> str:
+    """Return a unit of an export as it is called here."""
+    return _UNITS.get(unit.strip().lower(), unit.strip().replace("\u03bc", "u"))
+
+
 def known(cells: Sequence[str], names: Mapping[str, tuple[str, str | None]]) -> bool:
     """Return whether cells are a header: none a number, and one at least the name of a column."""
     found = [_parts(cell)[0] for cell in cells]
@@ -185,7 +210,7 @@ def _column(header: str, quantity: str, unit: str | None) -> Column:
             f"Column '{header.strip()}' does not say its unit. Give it by --column '{header.strip()}={quantity} "
             f"[{example}]', or leave the column out by --column '{header.strip()}='."
         )
-    column = Column(header.strip(), quantity, _UNITS.get(unit.strip().lower(), unit.strip().replace("μ", "u")))
+    column = Column(header.strip(), quantity, _ascii(unit))
     try:
         column.value(1.0)
     except ContactError as error:

@@ -20,6 +20,7 @@ from . import log_columns
 from .log_columns import Column
 
 _NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$")
+_CLOCK = re.compile(r"(\d+):([0-5]?\d):([0-5]?\d(?:[.,]\d+)?)$")  # hours, minutes, seconds
 _TITLE = re.compile(r"\s*step\b(?!\s*(time|type))", re.IGNORECASE)
 _KIND = re.compile(r"\s*step type\W+(\w+)", re.IGNORECASE)
 _MAPPER = "SLIM Mapper Analysis File"  # first line of another kind of file of the same rigs
@@ -93,15 +94,32 @@ def _told(column: Column, cells: list[str]) -> str:
     )
 
 
+def _in_seconds(cell: str) -> str:
+    """Return a time such as 01:30:00 as a number of seconds, with the sign of decimals that it has; else the cell."""
+    found = _CLOCK.match(cell)
+    if not found:
+        return cell
+    hours, minutes, seconds = found.groups()
+    number = f"{3600 * int(hours) + 60 * int(minutes) + float(seconds.replace(',', '.')):.9g}"
+    return number.replace(".", ",") if "," in seconds else number
+
+
 def _tables(
     lines: list[str], mark: str, names: Mapping[str, tuple[str, str | None]]
 ) -> Iterator[tuple[str, str, list[str], list[list[str]]]]:
     """Yield title and kind of the step, headers and rows of each table that has rows."""
     title, kind, headers, rows = "", "", [""], list[list[str]]()
     for line in [*lines, ""]:
-        cells = [cell.strip().strip('"') for cell in line.split(mark)]
+        own = [cell.strip().strip('"') for cell in line.split(mark)]
+        cells = [*map(_in_seconds, own)]
         if headers != [""] and _is_row(cells):
+            if not rows:
+                headers = log_columns.with_units(headers, ["s" if _CLOCK.match(cell) else "" for cell in own])
             rows.append(cells)
+            continue
+        bare = [cell.strip("[]()") for cell in cells]
+        if headers != [""] and not rows and log_columns.are_units(bare):
+            headers = log_columns.with_units(headers, bare)
             continue
         if rows:
             yield title, kind, headers, rows

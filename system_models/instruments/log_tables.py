@@ -73,17 +73,41 @@ def _can_be(name: str, value: float) -> bool:
 
 
 def duty(rows: Sequence[Row]) -> list[list[str]]:
-    """Return header and rows of a duty, one for each change of an input; none if the log has no time or no input."""
+    """Return header and rows of a duty, one for each change of an input; none where `no_duty` says why."""
+    if no_duty(rows):
+        return []
     names = _names(rows)
+    return [["time [s]", *(f"{name} [{INPUTS[name]}]" for name in names)], *_changes(rows, names)]
+
+
+def no_duty(rows: Sequence[Row]) -> str:
+    """Return why the rows are no duty, in a sentence without its end; an empty text if they are one."""
+    names = _names(rows)
+    if not names:
+        return "no load, speed or temperature is taken"
+    found = _changes(rows, names)
+    for row in found:
+        if "" in row:
+            return f"some steps have no {names[row.index('') - 1]}. Choose others by --step"
+    if len(found) > 1 and not any(row.time for row in rows):
+        return "inputs change, but there is no column of time to say when"
+    for early, late in pairwise(row.time for row in rows):
+        if late < early:
+            return f"the time falls back from {early:g} s to {late:g} s, as in another test. Make a log of each"
+    for early, late in pairwise(row[0] for row in found):
+        if early == late:
+            return f"inputs change at {late} s, and again at that time"
+    return ""
+
+
+def _changes(rows: Sequence[Row], names: Sequence[str]) -> list[list[str]]:
+    """Return time and inputs of each row in which one of these has changed."""
     found: list[list[str]] = []
     for row in rows:
         cells = [_cell(name, row.inputs.get(name)) for name in names]
         if not found or cells != found[-1][1:]:
             found.append([f"{row.time - rows[0].time:.10g}", *cells])
-    times = [float(row[0]) for row in found]
-    if not names or any("" in row for row in found) or any(late <= early for early, late in pairwise(times)):
-        return []
-    return [["time [s]", *(f"{name} [{INPUTS[name]}]" for name in names)], *found]
+    return found
 
 
 def data(rows: Sequence[Row]) -> list[list[str]]:

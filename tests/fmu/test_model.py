@@ -7,8 +7,10 @@ import pytest
 from comparison import approx
 
 from benchmarks.models import build
+from system_models.fmu.errors import CouplingError
 from system_models.fmu.kinds import kind
 from system_models.fmu.model import Model
+from system_models.master import simulate
 from system_models.master.system import System
 
 TYPES = {
@@ -76,3 +78,26 @@ def test_inputs_that_may_be_set_within_a_step_are_known(tmp_path: Path) -> None:
         model = Model("a", build("gain", tmp_path, 3, intermediate=intermediate))
         assert model.variables["u"].intermediateUpdate is intermediate
         assert not model.variables["y"].intermediateUpdate
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize(("there", "said"), [("win64", "only for win64"), ("", "nor for any other")])
+def test_a_library_for_another_platform_is_named(fmi: int, there: str, said: str, tmp_path: Path) -> None:
+    other = tmp_path / "other.fmu"
+    with zipfile.ZipFile(build("gain", tmp_path, fmi)) as old, zipfile.ZipFile(other, "w") as new:
+        for name in old.namelist():
+            kept = name if not name.startswith("binaries/") else f"binaries/{there}/gain.dll"
+            if there or name == kept:
+                new.writestr(kept, old.read(name))
+    with pytest.raises(CouplingError, match=f"'a' has no library for this platform, .*linux.*, {said}. Export it for"):
+        simulate(System({"a": other}), stop_time=1.0, step_size=0.1)
+
+
+def test_a_failure_does_not_point_to_messages_that_are_not_there(tmp_path: Path) -> None:
+    broken, before = tmp_path / "broken.fmu", Path.cwd()
+    with zipfile.ZipFile(build("gain", tmp_path)) as old, zipfile.ZipFile(broken, "w") as new:
+        for name in old.namelist():
+            new.writestr(name, b"no library" if name.startswith("binaries/") else old.read(name))
+    with pytest.raises(CouplingError, match=r"'a' failed to start: .* It gave no message; ask who made it\."):
+        simulate(System({"a": broken}), stop_time=1.0, step_size=0.1)
+    assert Path.cwd() == before

@@ -241,6 +241,57 @@ def test_cells_that_cannot_have_been_measured_are_counted(
     assert said in capsys.readouterr().err
 
 
+RIG = "Time (s);Load (N);Friction Coefficient;Oil Temp (degC);Mean Speed (mm/s);SRR (%)"
+
+
+@pytest.mark.parametrize(
+    ("head", "times"),
+    [
+        (RIG.replace("Time (s)", "Time"), ["00:00:00", "00:00:30", "00:02:00"]),
+        (RIG.replace("Time (s)", "Time"), ["00:00:00,0", "00:00:30,0", "00:02:00,0"]),
+        (RIG, ["0", "30", "120"]),
+        (
+            "Time;Load;Friction Coefficient;Oil Temp;Mean Speed;SRR\ns;N;-;°C;mm/s;%",
+            ["0", "30", "120"],
+        ),
+        (
+            "Time;Load (N);Friction Coefficient;Oil Temp;Mean Speed;SRR\n[min];;;[degC];[mm/s];[%]",
+            ["0", "0,5", "2"],
+        ),
+    ],
+)
+def test_a_clock_and_a_line_of_units_are_read(
+    head: str, times: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    rows = [f"{time};{load};0,1;80;100;5" for time, load in zip(times, (50, 50, 60), strict=True)]
+    Path("rig.csv").write_text("\n".join([head, *rows]), "utf-8")
+    assert main(["log", "rig.csv"]) == 0
+    duty = Duty.from_csv("rig_duty.csv", Scene.from_toml("mtm_zddp").operation.point)
+    assert duty.times == (0.0, 120.0)
+    assert [p.load for p in duty.points] == [50.0, 60.0]
+    assert (duty.points[0].speed_1, duty.points[0].temperature) == approx((0.1025, 353.15), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("rows", "said"),
+    [
+        ("0,50\n1,60\n0,70\n1,80\n", "No duty: the time falls back from 1 s to 0 s, as in another test. Make a log"),
+        ("0,50\n1,60\n1,70\n", "No duty: inputs change at 1 s, and again at that time."),
+        ("0,50\n0,60\n", "No duty: inputs change, but there is no column of time"),
+    ],
+)
+def test_why_there_is_no_duty_is_told(
+    rows: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    lines = [f"{row},0.1" for row in rows.split()]
+    Path("rig.csv").write_text("\n".join(["Time (s),Load (N),Friction Coefficient", *lines]))
+    assert main(["log", "rig.csv"]) == 0
+    assert said in capsys.readouterr().err
+    assert not Path("rig_duty.csv").exists()
+
+
 def test_data_to_fit_have_a_range_too(tmp_path: Path) -> None:
     (tmp_path / "data.csv").write_text("time [s],friction_coefficient [1]\n0,0.1\n1,1e30\n")
     with pytest.raises(SceneError, match=r"friction_coefficient = 1e\+30 .* at most 10"):
