@@ -94,9 +94,9 @@ def no_duty(rows: Sequence[Row]) -> str:
     for early, late in pairwise(row.time for row in rows):
         if late < early:
             return f"the time falls back from {early:g} s to {late:g} s, as in another test. Make a log of each"
-    for early, late in pairwise(row[0] for row in found):
-        if early == late:
-            return f"inputs change at {late} s, and again at that time"
+    for before, after in pairwise(row[0] for row in found):
+        if before == after:
+            return f"inputs change at {after} s, and again at that time"
     return ""
 
 
