@@ -1,12 +1,13 @@
 """A system: FMUs, the connections between them, parameters and schedules."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from fmpy.model_description import ModelVariable
 
 from contact_core.scene.toml import did_you_mean
@@ -18,6 +19,8 @@ from . import unit_checks
 
 Value = float | int | bool | str
 
+_RECORDED = ("real", "float", "integer", "boolean")  # kinds of outputs
+
 
 @dataclass(frozen=True)
 class Port:
@@ -25,16 +28,28 @@ class Port:
 
     model: Model
     variable: ModelVariable
+    place: int | None = None  # of an array the element, counted row by row
 
     @property
     def name(self) -> str:
-        """Its name in the system."""
-        return f"{self.model.name}.{self.variable.name}"
+        """Its name in the system; indices of an element begin at 1."""
+        whole = f"{self.model.name}.{self.variable.name}"
+        if self.place is None:
+            return whole
+        index = np.unravel_index(self.place, self.variable.shape)
+        return f"{whole}[{','.join(str(i + 1) for i in index)}]"
 
     @property
     def kind(self) -> str:
-        """real, float, integer, boolean or string."""
-        return kind(self.variable)
+        """real, float, integer, boolean or string; element of an array, which is recorded only."""
+        return kind(self.variable) if self.place is None else "element"
+
+    @property
+    def elements(self) -> "list[Port]":
+        """Itself, or the elements of an array."""
+        if not self.variable.dimensions:
+            return [self]
+        return [replace(self, place=place) for place in range(math.prod(self.variable.shape))]
 
     @property
     def nominal(self) -> float | None:
@@ -129,22 +144,25 @@ class System:
         return Port(model, model.variables[variable])
 
     def outputs(self, names: Iterable[str] | None) -> list[Port]:
-        """Return the variables to record: those named, or every output that is no text."""
+        """Return the variables to record: those named, or every output that is no text; arrays by their elements."""
         if isinstance(names, str):
             raise CouplingError(f"outputs = {names!r} is one name. Give a list of names.")
         if names is not None:
-            return [self._recorded(name) for name in dict.fromkeys(names)]
-        every = (Port(m, v) for m in self.models.values() for v in m.variables.values() if v.causality == "output")
-        return [
-            port
-            for port in every
-            if port.kind in ("real", "float", "integer", "boolean") and not port.variable.dimensions
-        ]
+            return [element for name in dict.fromkeys(names) for element in self._recorded(name)]
+        return [element for port in self._every_output() if port.kind in _RECORDED for element in port.elements]
 
-    def _recorded(self, name: str) -> Port:
+    def left_out(self) -> list[str]:
+        """Return the outputs that are recorded only where they are named, if at all: texts and binary data."""
+        return [port.name for port in self._every_output() if port.kind not in _RECORDED]
+
+    def _every_output(self) -> Iterator[Port]:
+        outputs = ((m, v) for m in self.models.values() for v in m.variables.values() if v.causality == "output")
+        return (Port(model, variable) for model, variable in outputs)
+
+    def _recorded(self, name: str) -> list[Port]:
         port = self.port(name)
-        self._check_kind(port)
-        return port
+        self._check_type(port)
+        return port.elements
 
     def _input(self, name: str, what: str) -> Port:
         return self._of_causality(name, "input", what)
@@ -163,11 +181,14 @@ class System:
         self._check_kind(port)
         return port
 
-    def _check_kind(self, port: Port) -> None:
+    def _check_type(self, port: Port) -> None:
         if port.kind not in ("real", "float", "integer", "boolean", "string"):
             raise CouplingError(
                 f"'{port.name}' is of type {port.variable.type}, which cannot be exchanged. Leave it out."
             )
+
+    def _check_kind(self, port: Port) -> None:
+        self._check_type(port)
         if port.variable.dimensions:
             raise CouplingError(f"'{port.name}' is an array, which cannot be exchanged. Use variables of one value.")
 
