@@ -276,3 +276,10 @@ def test_an_archive_in_place_of_a_system_is_named(name: str, said: str, tmp_path
         archive.writestr("modelDescription.xml", "")
     with pytest.raises(CouplingError, match=said):
         read(tmp_path / name)
+
+
+def test_outputs_that_are_no_numbers_are_named(tmp_path: Path) -> None:
+    describe(tmp_path / "teller.fmu", [("v", "output", "Real"), ("label", "output", "String")])
+    system = System({"teller": tmp_path / "teller.fmu"})
+    assert [port.name for port in system.outputs(None)] == ["teller.v"]
+    assert system.left_out() == ["teller.label"]
