@@ -275,6 +275,16 @@ def value_out_of_range(q: Quantity, value: float) -> Iterator[str]:
     yield from _number_sentence(q.name, value, {"unit": q.unit, "text": q.text, "least": least, "most": most})
 
 
+_LARGEST_MEASURED = {"friction_coefficient": 10.0}  # assumed
+_BEYOND = 1e4  # assumed: times the nominal value of an output without a bound of its own
+
+
+def measured_range(q: Quantity) -> tuple[float, float]:
+    """Return the least and the largest value that an instrument can measure: others are marks, such as -9 or 1e30."""
+    most = q.maximum if math.isfinite(q.maximum) else _LARGEST_MEASURED.get(q.name, _BEYOND * q.nominal)
+    return max(q.minimum, -most), most
+
+
 def _number_sentence(name: str, value: float, limits: Mapping[str, Any]) -> Iterator[str]:
     above, least, most, unit = (limits.get(key) for key in ("above", "least", "most", "unit"))
     inside = (above is None or value > above) and (least is None or value >= least) and (most is None or value <= most)

@@ -16,6 +16,7 @@ from .height_map import HeightMap, HeightStatistics, read, statistics_of
 
 Array = NDArray[np.float64]
 
+WIDEST = 1e-3  # m between neighbours
 _RMS = (2e-10, 1e-4)  # m: less is smooth, more is no roughness
 _SLOPE = (1e-4, 1.0)  # assumed: a thousandfold error of unit takes slopes of 1e-3 to 0.1 out of it
 _STRETCH = 0.02  # of a tile, at most, to fit a whole number of them
@@ -32,7 +33,7 @@ class Heights:
     """
 
     spacing: float = parameter(
-        "m", "distance between neighbours in the file of heights", above=0.0, most=1e-3, shapes_arrays=True
+        "m", "distance between neighbours in the file of heights", above=0.0, most=WIDEST, shapes_arrays=True
     )
     unit: str = parameter("", "unit of the numbers in the file of heights", choices=("m", "mm", "um", "nm"))
     file: str = parameter("", "file of heights: .npy or .csv, beside the scene's file", default="")
@@ -144,14 +145,19 @@ class Heights:
             )
 
     def _unit_errors(self) -> Iterator[str]:
-        found = self.statistics
-        for what, value, (least, most), unit in (
-            ("rms height", found.rms, _RMS, " m"),
-            ("rms slope", found.slope, _SLOPE, ""),
-        ):
-            if not least <= value <= most:
-                yield (
-                    f"unit = '{self.unit}' with spacing = {self.spacing:g} m makes the {what} of the file {value:.3g}"
-                    f"{unit}; {least:g} to {most:g}{unit} is plausible. Give the unit of the numbers in the file and "
-                    "the distance of its neighbours; for a smooth surface leave heights out."
-                )
+        for what, value, plausible in implausible(self.statistics):
+            yield (
+                f"unit = '{self.unit}' with spacing = {self.spacing:g} m makes the {what} of the file {value}; "
+                f"{plausible} is plausible. Give the unit of the numbers in the file and the distance of its "
+                "neighbours; for a smooth surface leave heights out."
+            )
+
+
+def implausible(found: HeightStatistics) -> Iterator[tuple[str, str, str]]:
+    """Yield which rms of heights is none of a rough surface, its value, and the range of what can be one, in words."""
+    for what, value, (least, most), unit in (
+        ("rms height", found.rms, _RMS, " m"),
+        ("rms slope", found.slope, _SLOPE, ""),
+    ):
+        if not least <= value <= most:
+            yield what, f"{value:.3g}{unit}", f"{least:g} to {most:g}{unit}"

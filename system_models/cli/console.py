@@ -3,6 +3,7 @@
 import argparse
 import os
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 from contact_core.errors import ContactError
@@ -32,6 +33,14 @@ def add_settings(command: argparse.ArgumentParser, text: str) -> None:
         type=_assignment,
         help=text,
     )
+
+
+def tell_replaced(arguments: argparse.Namespace, keys: Mapping[str, str]) -> None:
+    """Say on stderr where an option takes the place of a value that --set gives; `keys` are what options stand for."""
+    settings = dict(arguments.settings)
+    for option, key in keys.items():
+        if getattr(arguments, option, None) and key in settings:
+            note(f"--{option} stands for {key}: '{settings[key]}', which --set gives, is not used.")
 
 
 def _assignment(text: str) -> tuple[str, str]:

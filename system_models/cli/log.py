@@ -2,12 +2,19 @@
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
 from contact_core.scene import units
 
 from .console import note, output_folder
 from .overwriting import add_force, refuse_existing
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..instruments.log_file import Log
+    from ..instruments.log_tables import Row
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -52,6 +59,9 @@ def run(arguments: argparse.Namespace) -> int:
     print("Taken:", *log.taken(), sep="\n  ")
     if log.left_out:
         print("Left out:", *log.left_out, sep="\n  ")
+    for sentence in log.outside:
+        note(sentence)
+    _tell_rows(log, arguments.step, rows)
     sliding = [step for step in log.steps if step.has("srr") or step.has("sliding_speed")]
     if moving := [step for step in sliding if not log_tables.of_pin(step)]:
         print(_faster(arguments.faster, [log_tables.faster_of(step) for step in moving]))
@@ -65,7 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
     refuse_existing(tables, arguments.force)
     written = [log_tables.write(table, path) for path, table in tables.items()]
     if not duty:
-        note("No duty: inputs change, but there is no column of time to say when.")
+        note(f"No duty: {log_tables.no_duty(rows)}.")
     tests = {tuple(row.inputs.items()) for row in rows if row.measured}
     if data and len(tests) > 1:
         note(
@@ -74,6 +84,14 @@ def run(arguments: argparse.Namespace) -> int:
         )
     print(f"Written: {', '.join(map(str, written))}")
     return 0
+
+
+def _tell_rows(log: "Log", chosen: "Sequence[int]", rows: "Sequence[Row]") -> None:
+    """Say on stderr how many rows of the steps are left out, because an input is missing or cannot be."""
+    steps = [log.steps[number - 1] for number in chosen] if chosen else log.steps
+    left = sum(len(step.rows) for step in steps) - len(rows)
+    if left:
+        note(f"Rows without a time, load, speed or temperature that the contact takes are left out: {left}.")
 
 
 def _faster(given: int | None, told: list[int]) -> str:

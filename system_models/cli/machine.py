@@ -6,10 +6,10 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from .console import note, output_folder, refuse_empty
+from .console import note, output_folder, refuse_empty, tell_replaced
 from .overwriting import refuse_existing
 from .progress import counted, shown
-from .scenes import ask_back, tell_assumed
+from .scenes import ask_back, tell_assumed, tell_unreached
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,18 +24,26 @@ if TYPE_CHECKING:
     from ..master import System
 
 
+# keys of a machine that options stand for
+_STAND_FOR = {
+    "hours": "simulate.stop_time",
+    "accuracy": "contact.control.accuracy",
+    "grid": "contact.film.points",
+    "duty": "duty.file",
+}
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Carry out the command and return the exit code. Raises ContactError with a sentence if it cannot."""
     note(f"Loading '{arguments.scene}'; its report comes at the end.")
-    from ..machines import plausibility, reading, tables, timeline
+    from ..machines import plausibility, reading, tables
 
-    machine = reading.read(arguments.scene, _changes(arguments))
-    if arguments.duty:
-        machine.table["duty"] = timeline.with_file(machine.table.get("duty", {}), Path(arguments.duty).absolute())
+    machine = reading.read(arguments.scene, _changes(arguments), Path(arguments.duty) if arguments.duty else None)
     assembly = reading.assemble(machine)
     ask_back(plausibility.doubts(machine, assembly), arguments.force)
     assumed = tables.scene_and_assumed(machine.table)[1]
     tell_assumed(assumed)
+    tell_unreached([time for time, _ in reading.duty_of(machine).rows], assembly.settings["stop_time"])
     if arguments.ssp:
         refuse_existing([Path(arguments.ssp)], arguments.force)
         return _export(assembly, arguments.ssp, arguments.flavour or "isolated")
@@ -45,7 +53,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _changes(arguments: argparse.Namespace) -> dict[str, str]:
     refuse_empty(arguments)
+    tell_replaced(arguments, _STAND_FOR)
     changes = dict(arguments.settings)
+    if arguments.duty:
+        changes.pop("duty.file", None)
     if arguments.hours:
         changes["simulate.stop_time"] = f"{arguments.hours} h"
     if arguments.accuracy:

@@ -14,11 +14,20 @@ from contact_core.scene.origins import Origin, origins
 from contact_core.scene.toml import given
 
 from ..machines import files
-from .console import add_settings, note, refuse_empty
+from .console import add_settings, note, refuse_empty, tell_replaced
 from .overwriting import add_force
 
 if TYPE_CHECKING:
     from ..run.duty import Duty
+
+
+# keys of a scene that options stand for
+_STAND_FOR = {
+    "hours": "operation.duration",
+    "accuracy": "control.accuracy",
+    "grid": "film.points",
+    "duty": "operation.file",
+}
 
 
 def add_scene(command: argparse.ArgumentParser, kinds: str) -> None:
@@ -64,16 +73,20 @@ class Contact(NamedTuple):
 
 def contact_of(arguments: argparse.Namespace, overrides: dict[str, str]) -> Contact:
     """Return the scene with overrides and the duty; say on stderr what the scene does not give."""
-    from ..run.duty import Duty
+    from ..run.duty import Duty, refuse_hidden
 
+    tell_replaced(arguments, _STAND_FOR)
     scene, assumed = Scene.read(arguments.scene, overrides)
-    duty = Duty.of_scene(scene, folder_of_duty(arguments))
+    folder = folder_of_duty(arguments)
+    refuse_hidden(scene, folder, overrides)
+    duty = Duty.of_scene(scene, folder)
     largest = max(point.load for point in duty.points)
     if largest > scene.largest_load and any(each.key == "film.domain" for each in assumed):  # a grid for that load
         overrides = overrides | {"operation.largest_load": f"{largest!r} N"}
         scene, assumed = Scene.read(arguments.scene, overrides)
     ask_back(scene.doubts(duty.named(scene)), arguments.force)
     tell_assumed(assumed)
+    tell_unreached(duty.times, scene.operation.duration)
     return Contact(duty.sized(scene), duty, overrides, assumed)
 
 
@@ -81,6 +94,16 @@ def tell_assumed(assumed: Sequence[Assumed]) -> None:
     """Say on stderr which values a scene does not give."""
     if assumed:
         note(told(assumed))
+
+
+def tell_unreached(times: Sequence[float], end: float) -> None:
+    """Say on stderr which rows of a duty, by their times [s], come after the end of the run [s]."""
+    late = sum(time > end for time in times)
+    if late:
+        note(
+            f"The run ends at {end:g} s, the duty's last change is at {times[-1]:g} s: {late} of its {len(times)} rows "
+            "are not reached. Give the duration, such as --hours, if they should be."
+        )
 
 
 def ask_back(doubts: Sequence[str], force: bool) -> None:

@@ -58,6 +58,8 @@ def run(arguments: argparse.Namespace) -> int:
     if plan.method == "indices" and plan.grid:
         keys = ", ".join(factor.key for factor in plan.grid)
         raise ContactError(f"--method indices varies ranges alone: give {keys} as LOW:HIGH, or by --set.")
+    if both := {factor.key for factor in plan.factors} & dict(arguments.settings).keys():
+        raise ContactError(f"{', '.join(sorted(both))}: --vary and --set give it. Keep one of the two.")
     folder = output_folder(arguments.out, f"{Path(arguments.scene).stem}_sweep")
     duty = Path(arguments.scene).parent if arguments.scene.endswith(".toml") else Path()
     task = Task(

@@ -4,7 +4,7 @@ import logging
 import struct
 from collections.abc import Callable
 from ctypes import byref, c_bool, c_double, c_float
-from math import isclose, nan
+from math import isclose, nan, prod
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -221,12 +221,14 @@ class Fmi3Instance(Instance):
             self._fmu.fmi3EnterStepMode(self._component)
 
     def get(self, variable: ModelVariable) -> Any:
-        """Return the value of a variable of any type."""
+        """Return the value of a variable of any type, of an array a list, row by row."""
         self._end_event()
         return self._value(variable)
 
     def _value(self, variable: ModelVariable) -> Any:
-        return getattr(self._fmu, f"get{_access(variable)}")([variable.valueReference])[0]
+        count = prod(variable.shape)
+        found = getattr(self._fmu, f"get{_access(variable)}")([variable.valueReference], count)
+        return found if variable.dimensions else found[0]
 
     def set(self, variable: ModelVariable, value: Any) -> None:
         """Set a variable of any type: a discrete one, during the simulation, in event mode if the value is another."""

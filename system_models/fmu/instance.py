@@ -3,15 +3,18 @@
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from ctypes import c_double
+from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+import fmpy
 import numpy as np
 from fmpy.fmi2 import fmi2ValueReference
 from fmpy.model_description import ModelVariable
 from numpy.typing import NDArray
 
 from ..numerics import hold
+from . import messages
 from .errors import CouplingError
 from .model import Model
 
@@ -46,6 +49,8 @@ class Instance(ABC):
         self.event, self.events = False, 0  # handled in the last step or after it, and how many: from FMI 3 on
         self.next_event: float | None = None  # its time [s], where the FMU announces it
         self.interpolates = False  # whether it takes derivatives of its inputs, or asks for them within a step
+        messages.said.discard(self.name)
+        self._refuse_platform(folder)
         self._instantiate(folder)
 
     def step(self, time: float, size: float, polynomial: NDArray[np.float64]) -> float:
@@ -79,7 +84,19 @@ class Instance(ABC):
 
     def failure(self, what: str, error: Exception) -> CouplingError:
         """Return the error to raise where the FMU has failed to do something."""
-        return CouplingError(f"The FMU '{self.name}' failed {what}: {str(error).rstrip('.')}. Its messages say why.")
+        why = "Its messages say why." if self.name in messages.said else "It gave no message; ask who made it."
+        return CouplingError(f"The FMU '{self.name}' failed {what}: {str(error).rstrip('.')}. {why}")
+
+    def _refuse_platform(self, folder: str) -> None:
+        """Raise CouplingError if the FMU has no library for this platform."""
+        own = fmpy.platform_tuple if self.model.fmi3 else fmpy.platform
+        there = sorted(each.name for each in Path(folder, "binaries").glob("*") if any(each.glob("*")))
+        if own not in there:
+            others = f"only for {', '.join(there)}" if there else "nor for any other"
+            raise CouplingError(
+                f"The FMU '{self.name}' has no library for this platform, {own}, {others}. Export it for {own}, or "
+                "run it where its library does."
+            )
 
     @abstractmethod
     def _instantiate(self, folder: str) -> None: ...

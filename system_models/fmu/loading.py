@@ -3,7 +3,7 @@
 import tempfile
 import threading
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import ExitStack, chdir
 from pathlib import Path
 from typing import Any
 
@@ -27,5 +27,5 @@ def unpack(path: Path, exits: ExitStack) -> str:
 
 def load(library: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
     """Return library(*arguments, **named), one at a time."""
-    with _LOADING:
+    with _LOADING, chdir("."):  # fmpy stays in the library's folder if it cannot be loaded
         return library(*arguments, **named)

@@ -9,6 +9,7 @@ from contact_core.errors import ContactError
 
 Array = NDArray[np.float64]
 
+MOST_MISSING = 0.25  # share of points: more is not filled but invented
 LEAST = 8  # points along an edge of an image
 
 
@@ -33,6 +34,20 @@ class HeightImage:
     def missing(self) -> float:
         """Share of points without a height."""
         return float(np.mean(~np.isfinite(self.heights)))
+
+    def without_marks(self) -> "HeightImage":
+        """Return the image without heights farther from their median than it is long: instruments mark gaps so.
+
+        Where these are too many to be gaps, all stay: then the unit is wrong, or the size.
+        """
+        known = self.heights[np.isfinite(self.heights)]
+        middle = float(np.median(known)) if known.size else 0.0
+        with np.errstate(invalid="ignore"):
+            far = np.abs(self.heights - middle) > max(self.size)
+        if not far.any() or np.mean(far | ~np.isfinite(self.heights)) > MOST_MISSING:
+            return self
+        said = f"{int(far.sum())} heights, such as {self.heights[far][0]:.3g} m, are farther off than the image is long"
+        return replace(self, heights=np.where(far, np.nan, self.heights), remarks={**self.remarks, "no heights": said})
 
     def turned(self) -> "HeightImage":
         """Return the image with its y axis along x, its x axis along y."""

@@ -6,12 +6,13 @@ that users have published, such as the test data of the Python package `tribolog
 others.
 """
 
+import itertools
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from contact_core.errors import ContactError
-from contact_core.quantities import TABLE
+from contact_core.quantities import TABLE, measured_range
 from contact_core.scene import units
 from contact_core.scene.toml import did_you_mean
 
@@ -19,6 +20,12 @@ from contact_core.scene.toml import did_you_mean
 # in exports, tell which body is faster
 OF_RIGS = {
     "time": "s", "rolling_speed": "m/s", "sliding_speed": "m/s", "srr": "1", "ball_speed": "1", "disc_speed": "1"
+}  # fmt: skip
+
+# least and largest value of these; of ball and disc speeds, which have no unit, only the signs matter
+_OF_RIGS = {
+    "time": (0.0, 1e9), "rolling_speed": (-100.0, 100.0), "sliding_speed": (-200.0, 200.0), "srr": (-100.0, 100.0),
+    "ball_speed": (-1e9, 1e9), "disc_speed": (-1e9, 1e9),
 }  # fmt: skip
 
 # name of a column in small letters: its quantity. Where two name one quantity, the first of this list is taken
@@ -90,6 +97,11 @@ class Column:
     unit: str
 
     @property
+    def limits(self) -> tuple[float, float]:
+        """Least and largest value in SI that can have been measured."""
+        return _OF_RIGS.get(self.quantity) or measured_range(TABLE[self.quantity])
+
+    @property
     def si(self) -> str:
         """Unit in SI of the quantity."""
         return OF_RIGS.get(self.quantity) or TABLE[self.quantity].unit
@@ -151,6 +163,30 @@ def taken(
     return columns, left
 
 
+def with_units(headers: Sequence[str], units_below: Sequence[str]) -> list[str]:
+    """Return headers with units from elsewhere, where they say none of their own."""
+    pairs = itertools.zip_longest(headers, units_below[: len(headers)], fillvalue="")
+    return [f"{header.strip()} ({unit})" if unit and _parts(header)[1] is None else header for header, unit in pairs]
+
+
+def are_units(cells: Sequence[str]) -> bool:
+    """Return whether the cells of a line are units, such as s, [N] or -, or empty."""
+    given = [cell for cell in cells if cell]
+    return bool(given) and all(map(_is_unit, given))
+
+
+def _is_unit(text: str) -> bool:
+    try:
+        return _ascii(text) == "degC" or bool(units.unit(_ascii(text)))
+    except ContactError:
+        return False
+
+
+def _ascii(unit: str) -> str:
+    """Return a unit of an export as it is called here."""
+    return _UNITS.get(unit.strip().lower(), unit.strip().replace("\u03bc", "u"))
+
+
 def known(cells: Sequence[str], names: Mapping[str, tuple[str, str | None]]) -> bool:
     """Return whether cells are a header: none a number, and one at least the name of a column."""
     found = [_parts(cell)[0] for cell in cells]
@@ -174,7 +210,7 @@ def _column(header: str, quantity: str, unit: str | None) -> Column:
             f"Column '{header.strip()}' does not say its unit. Give it by --column '{header.strip()}={quantity} "
             f"[{example}]', or leave the column out by --column '{header.strip()}='."
         )
-    column = Column(header.strip(), quantity, _UNITS.get(unit.strip().lower(), unit.strip().replace("μ", "u")))
+    column = Column(header.strip(), quantity, _ascii(unit))
     try:
         column.value(1.0)
     except ContactError as error:

@@ -20,6 +20,7 @@ from . import log_columns
 from .log_columns import Column
 
 _NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$")
+_CLOCK = re.compile(r"(\d+):([0-5]?\d):([0-5]?\d(?:[.,]\d+)?)$")  # hours, minutes, seconds
 _TITLE = re.compile(r"\s*step\b(?!\s*(time|type))", re.IGNORECASE)
 _KIND = re.compile(r"\s*step type\W+(\w+)", re.IGNORECASE)
 _MAPPER = "SLIM Mapper Analysis File"  # first line of another kind of file of the same rigs
@@ -46,6 +47,7 @@ class Log:
     name: str
     steps: list[Step]
     left_out: list[str]  # sentences on columns, each once
+    outside: list[str] = field(default_factory=list)  # sentences on cells that cannot have been measured
 
     def taken(self) -> list[str]:
         """Return words on each column that is taken, each once."""
@@ -68,17 +70,38 @@ def read(path: Path, names: Mapping[str, tuple[str, str | None]]) -> Log:
     _check_decimals(path, lines, mark)
     steps: list[Step] = []
     left: dict[str, None] = {}
+    outside: dict[Column, list[str]] = {}
     for title, kind, headers, rows in _tables(lines, mark, names):
         filled = [any(_NUMBER.match(row[i]) for row in rows if i < len(row)) for i in range(len(headers))]
         columns, sentences = log_columns.taken(headers, names, filled)
         left |= dict.fromkeys(sentences)
-        steps.append(Step(title, columns, [_row(cells, columns) for cells in rows], kind))
+        steps.append(Step(title, columns, [_row(cells, columns, outside) for cells in rows], kind))
     if not steps:
         raise ContactError(
             f"'{path}' has no table with a known column, such as 'Rolling Speed (mm/s)' or 'Traction Coeff (-)'. "
             "Export it as text with headers, or name its columns by --column 'HEADER=QUANTITY [unit]'."
         )
-    return Log(path.name, steps, list(left))
+    return Log(path.name, steps, list(left), [_told(column, cells) for column, cells in outside.items()])
+
+
+def _told(column: Column, cells: list[str]) -> str:
+    """Return a sentence on the cells of a column that cannot have been measured."""
+    least, most = column.limits
+    unit = "" if column.si == "1" else f" {column.si}"
+    return (
+        f"'{column.header}': cells that are not from {least:g} to {most:g}{unit}, as {column.quantity} is, count as "
+        f"not measured: {len(cells)}, such as {cells[0]}."
+    )
+
+
+def _in_seconds(cell: str) -> str:
+    """Return a time such as 01:30:00 as a number of seconds, with the sign of decimals that it has; else the cell."""
+    found = _CLOCK.match(cell)
+    if not found:
+        return cell
+    hours, minutes, seconds = found.groups()
+    number = f"{3600 * int(hours) + 60 * int(minutes) + float(seconds.replace(',', '.')):.9g}"
+    return number.replace(".", ",") if "," in seconds else number
 
 
 def _tables(
@@ -87,9 +110,16 @@ def _tables(
     """Yield title and kind of the step, headers and rows of each table that has rows."""
     title, kind, headers, rows = "", "", [""], list[list[str]]()
     for line in [*lines, ""]:
-        cells = [cell.strip().strip('"') for cell in line.split(mark)]
+        own = [cell.strip().strip('"') for cell in line.split(mark)]
+        cells = [*map(_in_seconds, own)]
         if headers != [""] and _is_row(cells):
+            if not rows:
+                headers = log_columns.with_units(headers, ["s" if _CLOCK.match(cell) else "" for cell in own])
             rows.append(cells)
+            continue
+        bare = [cell.strip("[]()") for cell in cells]
+        if headers != [""] and not rows and log_columns.are_units(bare):
+            headers = log_columns.with_units(headers, bare)
             continue
         if rows:
             yield title, kind, headers, rows
@@ -141,11 +171,17 @@ def _check_decimals(path: Path, lines: list[str], mark: str) -> None:
         )
 
 
-def _row(cells: list[str], columns: list[Column | None]) -> dict[str, float]:
+def _row(cells: list[str], columns: list[Column | None], outside: dict[Column, list[str]]) -> dict[str, float]:
+    """Return the numbers of a row in SI; cells that cannot have been measured are added to `outside`."""
     found = {}
     for i, column in enumerate(columns):
         if column is not None:
             cell = cells[i] if i < len(cells) else ""
             number = float(cell.replace(",", ".")) if _NUMBER.match(cell) else math.nan
-            found[column.quantity] = column.value(number) if math.isfinite(number) else math.nan
+            value = column.value(number) if math.isfinite(number) else number
+            least, most = column.limits
+            if not (math.isnan(value) or least <= value <= most):
+                outside.setdefault(column, []).append(cell)
+                value = math.nan
+            found[column.quantity] = value
     return found

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from contact_core.errors import ContactError
+from contact_core.quantities import TABLE
 
 from .log_columns import OF_RIGS
 from .log_file import Log, Step
@@ -57,26 +58,56 @@ def rows_of(log: Log, chosen: Sequence[int], faster: int | None, srr: float | No
         for k, row in enumerate(step.rows):
             inputs = {name: held[name][k] for name in INPUTS if name in held}
             measured = {name: x for name, x in row.items() if name not in _OF_SPEEDS and math.isfinite(x)}
-            if all(math.isfinite(x) for x in (*inputs.values(), times[k])):
+            if math.isfinite(times[k]) and all(map(_can_be, inputs, inputs.values())):
                 rows.append(Row(begin + times[k], inputs, measured))
-        if times:
-            last = times[-1] - times[-2] if len(times) > 1 else 1.0
-            begin += times[-1] + last if step.has("time") else 0.0
+        known = [time for time in times if math.isfinite(time)]
+        if known:
+            last = known[-1] - known[-2] if len(known) > 1 else 1.0
+            begin += known[-1] + last if step.has("time") else 0.0
     return rows
 
 
+def _can_be(name: str, value: float) -> bool:
+    """Return whether an input is a number that the contact takes."""
+    return TABLE[name].minimum <= value <= TABLE[name].maximum
+
+
 def duty(rows: Sequence[Row]) -> list[list[str]]:
-    """Return header and rows of a duty, one for each change of an input; none if the log has no time or no input."""
+    """Return header and rows of a duty, one for each change of an input; none where `no_duty` says why."""
+    if no_duty(rows):
+        return []
     names = _names(rows)
+    return [["time [s]", *(f"{name} [{INPUTS[name]}]" for name in names)], *_changes(rows, names)]
+
+
+def no_duty(rows: Sequence[Row]) -> str:
+    """Return why the rows are no duty, in a sentence without its end; an empty text if they are one."""
+    names = _names(rows)
+    if not names:
+        return "no load, speed or temperature is taken"
+    found = _changes(rows, names)
+    for row in found:
+        if "" in row:
+            return f"some steps have no {names[row.index('') - 1]}. Choose others by --step"
+    if len(found) > 1 and not any(row.time for row in rows):
+        return "inputs change, but there is no column of time to say when"
+    for early, late in pairwise(row.time for row in rows):
+        if late < early:
+            return f"the time falls back from {early:g} s to {late:g} s, as in another test. Make a log of each"
+    for before, after in pairwise(row[0] for row in found):
+        if before == after:
+            return f"inputs change at {after} s, and again at that time"
+    return ""
+
+
+def _changes(rows: Sequence[Row], names: Sequence[str]) -> list[list[str]]:
+    """Return time and inputs of each row in which one of these has changed."""
     found: list[list[str]] = []
     for row in rows:
         cells = [_cell(name, row.inputs.get(name)) for name in names]
         if not found or cells != found[-1][1:]:
             found.append([f"{row.time - rows[0].time:.10g}", *cells])
-    times = [float(row[0]) for row in found]
-    if not names or any("" in row for row in found) or any(late <= early for early, late in pairwise(times)):
-        return []
-    return [["time [s]", *(f"{name} [{INPUTS[name]}]" for name in names)], *found]
+    return found
 
 
 def data(rows: Sequence[Row]) -> list[list[str]]:
@@ -206,6 +237,4 @@ def _cell(name: str, value: float | None) -> str:
 
 
 def _si(name: str) -> str:
-    from contact_core.quantities import TABLE
-
     return TABLE[name].unit or "1"

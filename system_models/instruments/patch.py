@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_core.errors import ContactError
+from contact_core.scene.height_map import statistics_of
+from contact_core.scene.heights import WIDEST, implausible
 
-from .image import HeightImage
+from .image import MOST_MISSING, HeightImage
 
 Array = NDArray[np.float64]
 
 FORMS = {"none": (), "plane": ((1, 0), (0, 1)), "curvature": ((1, 0), (0, 1), (2, 0), (1, 1), (0, 2))}  # powers of x, y
-MOST_MISSING = 0.25  # share of points: more is not filled but invented
 _OCTAVES = 2  # below the patch that must be resolved
 
 
@@ -98,6 +99,7 @@ def patch_of(
         raise ContactError(f"No wave of '{image.source}' is left. Use a larger --longest, or a smaller --shortest.")
     heights = _evaluated(cut, image, None if shortest is None else spacing)
     stages["in the patch"] = statistics(heights)
+    _check_size(image, heights, spacing)
     below = _below(series**2 / series.size, lengths, shortest or 2.0 * spacing, resolved)
     return Patch(heights, spacing, removed, missing, longest, shortest, stages, below)
 
@@ -128,6 +130,18 @@ def _check(image: HeightImage, longest: float | None, shortest: float | None, re
     if longest is not None and longest <= (shortest or finest):
         raise ContactError(
             f"--longest = {1e6 * longest:g} um is not above the shortest wave, {1e6 * (shortest or finest):g} um."
+        )
+
+
+def _check_size(image: HeightImage, heights: Array, spacing: float) -> None:
+    """Raise ContactError for heights that a scene would refuse."""
+    found = [*implausible(statistics_of(heights, spacing))]
+    if not 0.0 < spacing <= WIDEST:
+        found.append(("distance of neighbours", f"{spacing:.3g} m", f"above 0, up to {WIDEST:g} m"))
+    for what, value, plausible in found:
+        raise ContactError(
+            f"The {what} of '{image.source}' is {value}; {plausible} is plausible. Correct its unit or size, --unit "
+            "and --size where the file does not say them, or the waves that are cut."
         )
 
 

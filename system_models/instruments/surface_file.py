@@ -25,9 +25,14 @@ _POINT = 3  # numbers in a line of x, y, z
 def read(path: Path, unit: str | None = None, size: tuple[float, float] | None = None) -> HeightImage:
     """Return the image of heights in a file; of several channels the one that its format shows first.
 
-    `unit` of lengths and heights and `size` along x and y [m] are for files that do not say them.
+    Heights that stand for none, such as 1e30, are left out. `unit` of lengths and heights and `size` along x and y [m]
+    are for files that do not say them.
     Raises ContactError if SurfaceTopography is not there, or the file cannot be used.
     """
+    return _read(path, unit, size).without_marks()
+
+
+def _read(path: Path, unit: str | None, size: tuple[float, float] | None) -> HeightImage:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of packages that it can do without

@@ -7,9 +7,8 @@ from contact_core.scene import OperatingPoint
 
 from .assembly import Assembly
 from .kind import Kind
-from .reading import Machine
+from .reading import Machine, duty_of
 from .registry import kinds
-from .timeline import Timeline, read
 
 _OF_CONTACT = ("entrainment_speed", "slide_roll_ratio", "load")  # signals of a duty that set a contact's inputs
 
@@ -34,9 +33,8 @@ def _points(machine: Machine, kind: Kind, point: OperatingPoint) -> Iterator[tup
     if not {*_OF_CONTACT} <= {*kind.signals}:
         return
     table = machine.table.get("duty", {})
-    duty: Timeline = read(table, kind.signals, machine.folder, kind.needed)
     where = f" of '{table['file']}'" if "file" in table else " of [duty]"
-    for i, (time, values) in enumerate(duty.filled()):
+    for i, (time, values) in enumerate(duty_of(machine).filled()):
         speed, half = values["entrainment_speed"], 0.5 * values["slide_roll_ratio"]
         moved = replace(point, load=values["load"], speed_1=speed * (1.0 + half), speed_2=speed * (1.0 - half))
         yield f"row {i + 1}{where} (at {time:g} s)", moved

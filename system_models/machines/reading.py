@@ -26,6 +26,7 @@ from contact_core.quantities import LEVELS
 from contact_core.scene.toml import did_you_mean
 
 from ..master.reading import settings, value
+from ..run import duty_table
 from . import timeline
 from .assembly import Assembly, Contact
 from .files import shipped, shipped_files
@@ -44,9 +45,10 @@ class Machine(NamedTuple):
     folder: Path  # from which the paths in it start
 
 
-def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
+def read(source: str, changes: Mapping[str, str] | None = None, duty: Path | None = None) -> Machine:
     """Read a machine by name or by the path of a file; `changes` maps dotted keys to new values.
 
+    `duty` is a table of the duty in place of the steps or cycles of the file; changes hold for both.
     Raises SceneError with a sentence on the error and its remedy.
     """
     path = Path(source)
@@ -60,6 +62,9 @@ def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
         ) from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise SceneError(f"The machine's file '{source}' is not valid TOML: {error}.") from None
+    if duty:
+        own = table.get("duty", {})
+        table["duty"] = timeline.with_file(own if isinstance(own, Mapping) else {}, duty.absolute())
     for key, text in (changes or {}).items():
         _put(table, key, value(text))
     table.setdefault("description", path.stem)
@@ -69,6 +74,9 @@ def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
     known = list(kinds())
     if kind not in known:
         raise SceneError(f"kind = {kind!r} is not one of {', '.join(known)}.{did_you_mean(str(kind), known)}")
+    own = table.get("duty")
+    if changes and isinstance(own, Mapping) and "file" in own:
+        duty_table.refuse_hidden(file.parent / str(own["file"]), kinds()[kind].signals, "duty", changes)
     return Machine(path.stem, kind, table, file.parent)
 
 
@@ -101,7 +109,7 @@ def assemble(machine: Machine) -> Assembly:
     """Return the co-simulation of a machine. Raises SceneError for what is missing, unknown or out of range."""
     kind, table = kinds()[machine.kind], machine.table
     _check_keys(machine, kind)
-    duty = timeline.read(table.get("duty", {}), kind.signals, machine.folder, kind.needed)
+    duty = duty_of(machine)
     design = kind.design(table, duty)
     return Assembly(
         name=machine.name,
@@ -114,6 +122,13 @@ def assemble(machine: Machine) -> Assembly:
         settings=_simulation(table, duty.end),
         reported=design.reported,
     )
+
+
+def duty_of(machine: Machine) -> timeline.Timeline:
+    """Return the duty of a machine for as long as it is simulated."""
+    kind, table = kinds()[machine.kind], machine.table
+    stop = settings(table.get("simulate", {})).get("stop_time")
+    return timeline.read(table.get("duty", {}), kind.signals, machine.folder, kind.needed, stop)
 
 
 def _at_levels(contacts: Mapping[str, Contact], table: Mapping[str, Any]) -> dict[str, Contact]:

@@ -20,7 +20,7 @@ Cycles of running and standing still, in which some signals are zero:
     repeat = 100
 
 From a table with a column of time and one for each signal, see `duty_table`; the time of its last row is the end, if
-no duration says otherwise, and signals without a column are as in [duty]:
+no duration says otherwise: that row holds where the simulation is longer. Signals without a column are as in [duty]:
 
     [duty]
     file = "drive_cycle.csv"
@@ -81,10 +81,15 @@ def with_file(table: Mapping[str, Any], path: str | Path) -> dict[str, Any]:
 
 
 def read(
-    table: Mapping[str, Any], signals: Mapping[str, Quantity], folder: Path, needed: Iterable[str] = ()
+    table: Mapping[str, Any],
+    signals: Mapping[str, Quantity],
+    folder: Path,
+    needed: Iterable[str] = (),
+    stop: float | None = None,
 ) -> Timeline:
     """Return the duty that the table [duty] describes; a relative path of a file starts from `folder`.
 
+    The simulation lasts until `stop` [s], without it to the end of the duty, where a row of a table has no effect.
     Raises SceneError with a sentence if a signal is unknown, out of range, or one of those `needed` is missing.
     """
     start = _values({key: value for key, value in table.items() if key not in _KEYS}, signals, "duty")
@@ -93,7 +98,7 @@ def read(
         raise SceneError(f"[duty] has {' and '.join(kinds)}. Keep one of them.")
     duration = _seconds(table["duration"], "duty.duration") if "duration" in table else None
     if "file" in table:
-        rows, end = _of_file(folder / str(table["file"]), start, signals, duration)
+        rows, end = _of_file(folder / str(table["file"]), start, signals, duration, stop)
     elif "start_stop" in table:
         rows, end = _of_start_stop(table["start_stop"], start, duration)
     else:
@@ -101,7 +106,7 @@ def read(
     for name in needed:
         if name not in rows[0][1]:
             raise SceneError(f"'duty.{name}' is missing. {_example(name, signals)}")
-    return _repeated(rows, end, table.get("repeat", 1))
+    return _repeated(rows, end, table.get("repeat", 1), stop)
 
 
 def _of_steps(
@@ -152,11 +157,15 @@ def _of_start_stop(table: Any, start: dict[str, float], duration: float | None) 
 
 
 def _of_file(
-    path: Path, start: dict[str, float], signals: Mapping[str, Quantity], duration: float | None
+    path: Path,
+    start: dict[str, float],
+    signals: Mapping[str, Quantity],
+    duration: float | None,
+    stop: float | None,
 ) -> tuple[list[Row], float]:
     rows = duty_table.read(path, signals)
     last = rows[-1][0]
-    end = last if duration is None else duration
+    end = (last or stop or 0.0) if duration is None else duration
     if end == 0.0:
         raise SceneError(f"The duty file '{path}' has one row only. Add one at the end of the duty, or duty.duration.")
     if end < last:
@@ -164,16 +173,19 @@ def _of_file(
             f"duty.duration = {end:g} s, but the duty file '{path}' lasts to {last:g} s. Make it longer, or leave it "
             "out."
         )
-    return [(0.0, start | rows[0][1]), *((time, values) for time, values in rows[1:] if time < end)], end
+    return [(0.0, start | rows[0][1]), *rows[1:]], end
 
 
-def _repeated(rows: Sequence[Row], end: float, repeat: Any) -> Timeline:
+def _repeated(rows: Sequence[Row], end: float, repeat: Any, stop: float | None) -> Timeline:
     count = units.parse(repeat, "", "duty.repeat")
     most = _MOST_CHANGES // len(rows)
     if count != int(count) or not 1 <= count <= most:
         raise SceneError(f"duty.repeat = {repeat!r} must be a whole number from 1 to {most}.")
-    again = tuple((k * end + time, values) for k in range(int(count)) for time, values in rows)
-    return Timeline(end * int(count), again)
+    again = [(k * end + time, values) for k in range(int(count)) for time, values in rows if time < end]
+    whole = end * int(count)
+    if stop is not None and stop > whole:
+        again += [(whole, values) for time, values in rows if time == end]
+    return Timeline(whole, tuple(again))
 
 
 def _values(table: Mapping[str, Any], signals: Mapping[str, Quantity], where: str) -> dict[str, float]:

@@ -16,11 +16,11 @@ from contact_core.state import RangeFlag
 from ..parts.part import start_values
 from ..run import flags, verdict
 from ..run.trust import described, regime, span, wrapped
-from . import timeline
 from .assembly import Assembly
 from .kind import Kind
-from .reading import Machine
+from .reading import Machine, duty_of
 from .registry import kinds
+from .timeline import Timeline
 
 _MOST_ROWS = 100  # of a duty that are looked at
 _ALIKE = 0.99  # of the largest load: rows from there on count as those of the largest
@@ -30,12 +30,10 @@ _POINT = {*OperatingPoint.__dataclass_fields__}
 
 def before(machine: Machine, assembly: Assembly) -> list[str]:
     """Return a paragraph for each class of contacts on the one that its duty loads most: pressure, motion, film."""
-    kind = kinds()[machine.kind]
-    duty = timeline.read(machine.table.get("duty", {}), kind.signals, machine.folder, kind.needed)
-    return wrapped(*_most_loaded(kind, assembly, duty))
+    return wrapped(*_most_loaded(kinds()[machine.kind], assembly, duty_of(machine)))
 
 
-def _most_loaded(kind: Kind, assembly: Assembly, duty: timeline.Timeline) -> Iterator[str]:
+def _most_loaded(kind: Kind, assembly: Assembly, duty: Timeline) -> Iterator[str]:
     """Yield a text for each class of contacts."""
     rows = [(kind.foreseen(assembly.parts, signals), signals) for signals in _some(duty)]
     for title, names in classes(assembly.contacts).items():
@@ -72,7 +70,7 @@ def classes(names: Sequence[str] | Mapping[str, object]) -> dict[str, list[str]]
     return found
 
 
-def _some(duty: timeline.Timeline) -> list[dict[str, float]]:
+def _some(duty: Timeline) -> list[dict[str, float]]:
     """Return the signals of some different rows of a duty, evenly spread, with those of least and most of each."""
     different = [dict(row) for row in dict.fromkeys(tuple(row.items()) for _, row in duty.filled())]
     step = max(1, math.ceil(len(different) / _MOST_ROWS))

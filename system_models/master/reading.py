@@ -37,6 +37,7 @@ from ..fmu.errors import CouplingError
 from .settings import Settings
 from .system import System
 
+_ARCHIVE = b"PK\x03\x04"  # first bytes of SSP and FMU
 _CHANGEABLE = ("parameters", "simulate")
 
 
@@ -59,9 +60,13 @@ def read(path: str | Path, changes: Iterable[tuple[str, str]] = ()) -> tuple[Sys
 def _tables(path: Path) -> dict[str, dict[str, Any]]:
     """Return all tables, flat where the keys are variables."""
     try:
-        file = tomllib.loads(path.read_text("utf-8"))
+        content = path.read_bytes()
     except OSError as error:
         raise CouplingError(f"The file cannot be read: {error.strerror}. Name a TOML file of a system.") from None
+    if content.startswith(_ARCHIVE):
+        raise CouplingError(_of_archive(path))
+    try:
+        file = tomllib.loads(content.decode("utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise CouplingError(f"This is not valid TOML: {error}. Correct it.") from None
     tables: dict[str, dict[str, Any]] = {name: {} for name in ("fmus", "parameters", "schedule", *_KEYS)}
@@ -76,6 +81,18 @@ def _tables(path: Path) -> dict[str, dict[str, Any]]:
             if key not in known:
                 raise _unknown(f"[{name}]", key, list(known), "keys")
     return tables | {name: _flat(name, tables[name]) for name in ("parameters", "schedule")}
+
+
+def _of_archive(path: Path) -> str:
+    """Return a sentence on an archive that is given in place of a TOML file."""
+    if path.suffix.lower() == ".ssp":
+        return "This is an SSP, which is written here (--ssp) and not read. Name the TOML file of the system."
+    if path.suffix.lower() == ".fmu":
+        return (
+            f'This is an FMU, not the TOML file of a system. Write one: [fmus] block = "{path.name}", and [simulate] '
+            'stop_time = "10 s", step_size = "10 ms".'
+        )
+    return "This is an archive, not the TOML file of a system. Name that."
 
 
 def _unknown(where: str, name: str, known: list[str], what: str) -> CouplingError:

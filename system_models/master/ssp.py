@@ -122,7 +122,8 @@ def _tag(name: str) -> str:
 def _ports(system: System, model: Model) -> list[Port]:
     """Return the outputs that can be recorded and whatever is connected; importers stumble over inputs that are not."""
     ends = [port for c in system.connections for port in (c.source, c.target)]
-    ports = {port.name: port for port in (*system.outputs(None), *ends) if port.model is model}
+    found = (port for port in (*system.outputs(None), *ends) if port.place is None)  # SSP 1.0 has no arrays
+    ports = {port.name: port for port in found if port.model is model}
     return [ports[name] for name in sorted(ports)]
 
 

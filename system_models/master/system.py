@@ -2,12 +2,13 @@
 
 import math
 import unicodedata
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from fmpy.model_description import ModelVariable
 
 from contact_core.scene.toml import did_you_mean
@@ -20,6 +21,7 @@ from . import unit_checks
 Value = float | int | bool | str
 
 _OWN = ("master", "bond")  # before a dot, in names of columns
+_RECORDED = ("real", "integer", "boolean")  # kinds of outputs
 
 
 @dataclass(frozen=True)
@@ -28,16 +30,28 @@ class Port:
 
     model: Model
     variable: ModelVariable
+    place: int | None = None  # of an array the element, counted row by row
 
     @property
     def name(self) -> str:
-        """Its name in the system."""
-        return f"{self.model.name}.{self.variable.name}"
+        """Its name in the system; indices of an element begin at 1."""
+        whole = f"{self.model.name}.{self.variable.name}"
+        if self.place is None:
+            return whole
+        index = np.unravel_index(self.place, self.variable.shape)
+        return f"{whole}[{','.join(str(i + 1) for i in index)}]"
 
     @property
     def kind(self) -> str:
-        """real, integer, boolean or string."""
-        return kind(self.variable)
+        """real, integer, boolean or string; element of an array, which is recorded only."""
+        return kind(self.variable) if self.place is None else "element"
+
+    @property
+    def elements(self) -> "list[Port]":
+        """Itself, or the elements of an array."""
+        if not self.variable.dimensions:
+            return [self]
+        return [replace(self, place=place) for place in range(math.prod(self.variable.shape))]
 
     @property
     def continuous(self) -> bool:
@@ -149,23 +163,34 @@ class System:
         return Port(model, model.variables[variable])
 
     def outputs(self, names: Iterable[str] | None) -> list[Port]:
-        """Return the variables to record: those named and verdicts of FMUs, or every output that is no text."""
+        """Return the variables to record: those named and verdicts of FMUs, or every output that is no text.
+
+        Arrays by their elements.
+        """
         if isinstance(names, str):
             raise CouplingError(f"outputs = {names!r} is one name. Give a list of names.")
         if names is not None:
-            return [self._recorded(name) for name in dict.fromkeys([*names, *self.verdicts.values()])]
-        every = (Port(m, v) for m in self.models.values() for v in m.variables.values() if v.causality == "output")
-        return [port for port in every if port.kind in ("real", "integer", "boolean") and not port.variable.dimensions]
+            every = dict.fromkeys([*names, *self.verdicts.values()])
+            return [element for name in every for element in self._recorded(name)]
+        return [element for port in self._every_output() if port.kind in _RECORDED for element in port.elements]
 
     @property
     def verdicts(self) -> dict[str, str]:
         """The output of each FMU, where it has one, that says whether it could use its inputs."""
         return {name: f"{name}.{m.verdict.name}" for name, m in self.models.items() if m.verdict is not None}
 
-    def _recorded(self, name: str) -> Port:
+    def left_out(self) -> list[str]:
+        """Return the outputs that are recorded only where they are named, if at all: texts and binary data."""
+        return [port.name for port in self._every_output() if port.kind not in _RECORDED]
+
+    def _every_output(self) -> Iterator[Port]:
+        outputs = ((m, v) for m in self.models.values() for v in m.variables.values() if v.causality == "output")
+        return (Port(model, variable) for model, variable in outputs)
+
+    def _recorded(self, name: str) -> list[Port]:
         port = self.port(name)
-        self._check_kind(port)
-        return port
+        self._check_type(port)
+        return port.elements
 
     def _input(self, name: str, what: str) -> Port:
         return self._of_causality(name, "input", what)
@@ -184,11 +209,14 @@ class System:
         self._check_kind(port)
         return port
 
-    def _check_kind(self, port: Port) -> None:
+    def _check_type(self, port: Port) -> None:
         if port.kind not in ("real", "integer", "boolean", "string"):
             raise CouplingError(
                 f"'{port.name}' is of type {port.variable.type}, which cannot be exchanged. Leave it out."
             )
+
+    def _check_kind(self, port: Port) -> None:
+        self._check_type(port)
         if port.variable.dimensions:
             raise CouplingError(f"'{port.name}' is an array, which cannot be exchanged. Use variables of one value.")
 

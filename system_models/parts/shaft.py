@@ -77,6 +77,8 @@ class Shaft(Part):
             return math.inf
         slowing = -self.inertia * speed / torque  # without damping
         rate = (self.damping + self.coupling) * slowing / self.inertia
+        if rate == math.inf:  # a torque that hardly differs from 0
+            return math.inf
         return slowing * (math.log1p(rate) / rate if rate > 0.0 else 1.0)
 
     def _free(self, state: State, torque: float, step: float) -> State:

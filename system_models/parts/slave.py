@@ -71,9 +71,9 @@ class PartSlave(GuardedSlave):
     def _initialise(self) -> None:
         self._part = self._state = None
         part = self._rebuilt(self.values)
-        state = part.initial(self._checked_inputs())
+        state = _finite(part.initial(self._checked_inputs()))
         self._part, self._state = part, state
-        self._evaluate()
+        self._evaluate(state)
 
     def _rebuilt(self, values: Sequence[Value]) -> Part:
         part: Part = with_numbers(self._design, self._parameters(values))
@@ -83,24 +83,20 @@ class PartSlave(GuardedSlave):
     def _advance(self, step_size: float) -> None:
         if self._part is None or self._state is None:
             raise ContactError("The component is not set up: its initialisation has failed. Correct what was logged.")
-        before = self._state
         self._stale = False  # if the step fails, the outputs stand
+        after = self._state
         if step_size > 0.0:
-            self._state = self._part.advance(before, self._checked_inputs(), step_size)
-        try:
-            self._evaluate()
-        except ContactError:
-            self._state = before
-            raise
+            after = _finite(self._part.advance(after, self._checked_inputs(), step_size))
+        self._evaluate(after)
+        self._state = after
 
-    def _evaluate(self) -> None:
-        """Set the outputs of the state, for the inputs as they are."""
+    def _evaluate(self, state: State) -> None:
+        """Set the outputs of a state, for the inputs as they are."""
         assert self._part is not None
-        assert self._state is not None
         self._stale = False  # also if they cannot be had: they stand
-        found = self._part.outputs(self._state, self._checked_inputs())
+        found = self._part.outputs(state, self._checked_inputs())
         results = [float(found[name]) for name, _ in self._responses]
-        if not math.isfinite(math.fsum(results)):
+        if not all(map(math.isfinite, results)):
             broken = [name for name, value in found.items() if not math.isfinite(value)]
             raise ContactError(f"No finite {', '.join(broken)} came out. Change the inputs, or go back in time.")
         for (_, reference), value in zip(self._responses, results, strict=True):
@@ -121,8 +117,8 @@ class PartSlave(GuardedSlave):
 
     def refresh(self) -> None:
         """Evaluate anew if an input has been set on which outputs depend at once."""
-        if self._stale and self.phase is Phase.STEPPING and self._part is not None:
-            self._guard(self._evaluate)
+        if self._stale and self.phase is Phase.STEPPING and self._state is not None:
+            self._guard(self._evaluate, self._state)
         super().refresh()
 
     def _get_fmu_state(self) -> Snapshot:
@@ -149,3 +145,10 @@ class PartSlave(GuardedSlave):
             raise StateError("The stored state is none of this component, or damaged. Use one that it has serialised.")
         part = None if state is None else self._rebuilt(found.values)
         return Snapshot(found.module, found.phase, found.stale, found.values, part, found.state)
+
+
+def _finite(state: State) -> State:
+    """Return a state. Raises ContactError if a number in it is not finite: it would spoil all that come after it."""
+    if not all(map(math.isfinite, state)):
+        raise ContactError("The state would not be finite, and stays as it was. Change the inputs.")
+    return state

@@ -7,7 +7,7 @@ the scene's value.
 
 import bisect
 import hashlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 from pathlib import Path
@@ -17,6 +17,8 @@ from contact_core.quantities import TABLE
 from contact_core.scene import OperatingPoint, Scene, Step
 
 from . import duty_table
+
+_SIGNALS = {f.name: TABLE[f.name] for f in fields(OperatingPoint)}
 
 
 @dataclass(frozen=True)
@@ -45,7 +47,7 @@ class Duty:
 
         Raises SceneError with one sentence that names file, line, column, value and remedy.
         """
-        rows = duty_table.read(Path(path), {f.name: TABLE[f.name] for f in fields(OperatingPoint)})
+        rows = duty_table.read(Path(path), _SIGNALS)
         return Duty(tuple(time for time, _ in rows), tuple(replace(reference, **values) for _, values in rows))
 
     @staticmethod
@@ -89,3 +91,9 @@ class Duty:
         if errors:
             raise SceneError(" ".join(sentence for _, sentence in errors))
         return sized
+
+
+def refuse_hidden(scene: Scene, folder: Path, changes: Collection[str]) -> None:
+    """Raise SceneError if a key that was changed in a scene has no effect, because its duty has a column for it."""
+    if scene.operation.file:
+        duty_table.refuse_hidden(folder / scene.operation.file, _SIGNALS, "operation", changes)

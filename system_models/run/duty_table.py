@@ -43,6 +43,17 @@ def read(path: Path, signals: Mapping[str, Quantity]) -> list[Row]:
     return rows
 
 
+def refuse_hidden(path: Path, signals: Mapping[str, Quantity], table: str, changes: Collection[str]) -> None:
+    """Raise SceneError if one of the changed keys is a signal of a `table` for which the file has a column."""
+    _, (_, values) = next(rows_of(path, signals))
+    for name in values:
+        if f"{table}.{name}" in changes:
+            raise SceneError(
+                f"{table}.{name} is set, but has no effect: the duty file '{path}' has a column {name}. Leave out one "
+                "of them."
+            )
+
+
 def rows_of(
     path: Path, signals: Mapping[str, Quantity], kind: str = "duty", gaps: Collection[str] = ()
 ) -> Iterator[tuple[str, Row]]:

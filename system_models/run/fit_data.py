@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from contact_core import OperatingPoint, Scene
 from contact_core.errors import SceneError
-from contact_core.quantities import INPUTS, OUTPUTS, Quantity
+from contact_core.quantities import INPUTS, OUTPUTS, Quantity, measured_range
 
 from . import duty_table
 
@@ -71,7 +71,11 @@ def read(path: Path, scene: Scene, level: str) -> Measured:
 
     Raises SceneError with one sentence that names file, line, column, value and remedy.
     """
-    known = {name: replace(q, minimum=-inf, maximum=inf) for name, q in MEASURABLE.items()}
+    known = {
+        name: replace(q, minimum=-most, maximum=most)
+        for name, q in MEASURABLE.items()
+        for most in [measured_range(q)[1]]
+    }
     spread = {f"{name}{SD}": replace(q, name=f"{name}{SD}") for name, q in known.items()}
     inputs = {f.name: q for f in fields(OperatingPoint) for q in INPUTS if q.name == f.name}
     found: list[tuple[str, OperatingPoint, float, float, float]] = []

@@ -16,7 +16,7 @@ from contact_core.scene import Scene
 from fmu_src.package.build import build
 
 from ..run.contact import run
-from ..run.duty import Duty
+from ..run.duty import Duty, refuse_hidden
 from ..run.origin import attributes
 from ..run.workers import done_by, workers
 from ..store.results import to_dataset, with_half_widths
@@ -73,7 +73,9 @@ def solve(task: Task, number: int, point: Point) -> Outcome:
 
 def scene_at(task: Task, point: Point) -> tuple[Scene, Duty]:
     """Return scene and duty of a point. Raises ContactError if the point has none."""
-    scene = Scene.from_toml(task.scene, dict(task.settings) | point.settings)
+    changes = dict(task.settings) | point.settings
+    scene = Scene.from_toml(task.scene, changes)
+    refuse_hidden(scene, task.folder_of_duty, changes)
     duty = Duty.of_scene(scene, task.folder_of_duty)
     return duty.sized(scene), duty
 

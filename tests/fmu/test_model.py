@@ -1,14 +1,17 @@
 """What a master reads of an FMU before anything runs."""
 
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from comparison import approx
 
 from benchmarks.models import build
+from system_models.fmu.errors import CouplingError
 from system_models.fmu.kinds import discrete, kind
 from system_models.fmu.model import Model
+from system_models.master import simulate
 from system_models.master.system import System
 
 TYPES = {
@@ -77,3 +80,46 @@ def test_inputs_that_may_be_set_within_a_step_are_known(tmp_path: Path) -> None:
         model = Model("a", build("gain", tmp_path, 3, intermediate=intermediate))
         assert model.variables["u"].intermediateUpdate is intermediate
         assert not model.variables["y"].intermediateUpdate
+
+
+def test_arrays_are_recorded_by_their_elements(tmp_path: Path) -> None:
+    path = build("gain", tmp_path, 3)
+    with zipfile.ZipFile(path) as archive:
+        lines = archive.read("modelDescription.xml").decode().splitlines()
+    (line,) = (line for line in lines if 'name="y"' in line)
+    array = line.replace("/>", '><Dimension start="1"/><Dimension start="1"/></Float64>')
+    file = edited(path, (line, array))
+    system = System({"a": file}, parameters={"a.u": 2.0})
+    result = simulate(system, stop_time=0.2, step_size=0.1)
+    right = simulate(System({"a": path}, parameters={"a.u": 2.0}), stop_time=0.2, step_size=0.1)
+    assert result["a.y[1,1]"].values.tolist() == right["a.y"].values.tolist()
+    assert [port.name for port in system.outputs(["a.y"])] == ["a.y[1,1]"]
+    with pytest.raises(CouplingError, match=r"'a\.y' is an array, which cannot be exchanged"):
+        System({"a": file, "b": path}, [("a.y", "b.u")])
+    variable = replace(system.port("a.y"), place=4)
+    variable.variable.shape = (2, 3)
+    assert [port.name for port in variable.elements][3:5] == ["a.y[2,1]", "a.y[2,2]"]
+    assert variable.name == "a.y[2,2]"
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize(("there", "said"), [("win64", "only for win64"), ("", "nor for any other")])
+def test_a_library_for_another_platform_is_named(fmi: int, there: str, said: str, tmp_path: Path) -> None:
+    other = tmp_path / "other.fmu"
+    with zipfile.ZipFile(build("gain", tmp_path, fmi)) as old, zipfile.ZipFile(other, "w") as new:
+        for name in old.namelist():
+            kept = name if not name.startswith("binaries/") else f"binaries/{there}/gain.dll"
+            if there or name == kept:
+                new.writestr(kept, old.read(name))
+    with pytest.raises(CouplingError, match=f"'a' has no library for this platform, .*linux.*, {said}. Export it for"):
+        simulate(System({"a": other}), stop_time=1.0, step_size=0.1)
+
+
+def test_a_failure_does_not_point_to_messages_that_are_not_there(tmp_path: Path) -> None:
+    broken, before = tmp_path / "broken.fmu", Path.cwd()
+    with zipfile.ZipFile(build("gain", tmp_path)) as old, zipfile.ZipFile(broken, "w") as new:
+        for name in old.namelist():
+            new.writestr(name, b"no library" if name.startswith("binaries/") else old.read(name))
+    with pytest.raises(CouplingError, match=r"'a' failed to start: .* It gave no message; ask who made it\."):
+        simulate(System({"a": broken}), stop_time=1.0, step_size=0.1)
+    assert Path.cwd() == before

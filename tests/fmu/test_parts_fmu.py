@@ -23,6 +23,7 @@ from system_models.machines.gear_pair.mesh import GearMesh
 from system_models.machines.gear_pair.shafts import GearShafts
 from system_models.parts.build import build
 from system_models.parts.part import Part, Start, indexed
+from system_models.parts.shaft import Shaft
 from system_models.parts.timetable import Entry, Signal, Timetable
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
@@ -180,6 +181,33 @@ def test_a_bad_input_makes_it_invalid_and_it_goes_on(host, example):
     assert stuck == before | {"valid": False}
     assert any(bad in text for _, text in host.log)
     assert host.step(0.05, **inputs) == own(part, inputs, (0.05, 0.05))[-1] | {"valid": True}
+
+
+def raises(*_):
+    raise ZeroDivisionError("surprising")
+
+
+def overflows(*_):
+    return {q.name: sign * math.inf for q, sign in zip(Shaft(1.0).responses, (1, -1, 1), strict=True)}
+
+
+def no_number(*_):
+    return (math.nan, 0.0)
+
+
+@pytest.mark.parametrize("broken", [{"outputs": raises}, {"outputs": overflows}, {"advance": no_number}])
+def test_a_step_that_fails_in_any_way_leaves_no_trace_in_the_state(broken, tmp_path, monkeypatch):
+    folder = unpacked(build(Shaft(0.02, 0.1), tmp_path / "shaft.fmu", "embedded"), tmp_path / "shaft")
+    with hosted(folder) as host:
+        host.initialise(torque_drive=1.0)
+        before, state = host.step(0.05), host.state()
+        with monkeypatch.context() as patch:
+            for name, instead in broken.items():
+                patch.setattr(Shaft, name, instead)
+            assert host.step(0.05) == before | {"valid": False}
+        stepped = host.step(0.05)
+        host.restore(state)
+        assert stepped | {"valid": True} == host.step(0.05)
 
 
 def test_the_first_outputs_depend_only_on_the_inputs_named_for_them(example):

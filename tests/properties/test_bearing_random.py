@@ -43,6 +43,39 @@ def test_any_bearing_comes_to_rest_in_balance(bearing, loads, speed):
     assert np.all(found.load_outer >= 0.0)
 
 
+def hardly(largest):
+    """Zero, or next to nothing down to the smallest number there is."""
+    some = st.builds(
+        lambda sign, decades: sign * largest * 10.0**-decades, st.sampled_from([-1.0, 1.0]), st.floats(5, 330)
+    )
+    return st.one_of(st.just(0.0), some)
+
+
+PAUSES = st.builds(RingLoads, hardly(1e4), hardly(2e4), hardly(2e4), hardly(200.0), hardly(200.0))
+
+
+@given(BEARINGS, st.lists(st.tuples(PAUSES, hardly(1e3)), max_size=4), LOADS, st.floats(1.0, 1048.0))
+def test_a_bearing_is_after_any_pause_as_it_was_before(bearing, pauses, loads, speed):
+    before = solve(bearing, loads, speed)
+    start = before.start
+    for now in pauses:
+        found = solve(bearing, *now, start)
+        assert found.converged
+        assert np.isfinite(found.load_inner).all()
+        start = found.start
+    after = solve(bearing, loads, speed, start)
+    assert np.abs(after.load_outer - before.load_outer).max() <= 1e-7 * max(before.load_outer.max(), 1.0)
+
+
+@given(BEARINGS, LOADS, SPEEDS, st.integers(0, 20), st.sampled_from([math.nan, math.inf, -1e9, 1e7, 0.5]))
+def test_a_start_that_cannot_be_is_left_for_none(bearing, loads, speed, place, spoilt):
+    start = list(solve(bearing, loads, speed).start)
+    start[place] = spoilt
+    found, right = solve(bearing, loads, speed, tuple(start)), solve(bearing, loads, speed)
+    assert found.converged
+    assert np.abs(found.load_outer - right.load_outer).max() <= 1e-7 * max(right.load_outer.max(), 1.0)
+
+
 @given(BEARINGS, LOADS, SPEEDS, st.sampled_from([1, 2, 3, 5]))
 def test_classes_are_contacts_that_can_be_solved_and_carry_what_the_balls_carry(bearing, loads, speed, levels):
     found = solve(bearing, loads, speed)

@@ -10,6 +10,7 @@ import xarray as xr
 from comparison import approx
 from numpy.typing import NDArray
 
+from contact_core.errors import SceneError
 from system_models.machines import reading
 from system_models.machines.assembly import Assembly
 from system_models.machines.gear_pair import pictures as gear_pair_pictures
@@ -222,3 +223,13 @@ def test_shipped_gears_run_the_load_stages_of_their_tests(name: str, count: int,
     assert len(torques) == count
     assert torques[-1] == approx(last)
     assert len(assembly.contacts) == 21
+
+
+def test_gears_start_at_the_speed_of_the_duty_and_not_so_far_from_it_that_teeth_break() -> None:
+    slow = assembled(CONSTANT | {"duration": "1 min", "speed": "900 rpm"})
+    assert slow.parts["shafts"].start_speed == approx(30.0 * np.pi)
+    machine = reading.read("gear_fzg_c", {"shafts.start_speed": "10 rad/s"})
+    with pytest.raises(SceneError, match=r"start_speed = 10 rad/s, but the duty begins at 235.619 rad/s: .* Leave"):
+        reading.assemble(machine)
+    near = reading.read("gear_fzg_c", {"shafts.start_speed": "2251 rpm"})
+    assert reading.assemble(near).parts["shafts"].start_speed == approx(2251.0 / 30.0 * np.pi)

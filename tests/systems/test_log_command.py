@@ -1,12 +1,16 @@
 """`tribofmu log`: text logs of test rigs become duties and data."""
 
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 from comparison import approx
+from hypothesis import given
+from hypothesis import strategies as st
 
-from contact_core import Scene
+from contact_core import Scene, SceneError
 from system_models.cli.main import main
+from system_models.instruments import log_file, log_tables
 from system_models.run.duty import Duty
 from system_models.run.fit_data import read
 
@@ -190,3 +194,105 @@ def test_images_of_a_mapper_are_named_as_what_they_are(
     Path("map.txt").write_text("SLIM Mapper Analysis File\nX\tY\tR\tG\tB\tFilm\n0\t5\t7\t5\t1\t130.0\n")
     assert main(["log", "map.txt"]) == 2
     assert "Film=tribofilm_1 [nm]" in capsys.readouterr().err
+
+
+MARKS = st.sampled_from(["-9", "-999", "1e30", "1e400", "-1e30", "", "9999999999"])
+
+
+@given(
+    st.lists(st.tuples(*4 * [st.one_of(MARKS, st.floats(0.001, 90.0).map("{:.4g}".format))]), min_size=2, max_size=9)
+)
+def test_marks_of_what_was_not_measured_reach_neither_duty_nor_data(cells) -> None:
+    head = "Time (s),Load (N),Friction Coefficient,Oil Temp (degC),Mean Speed (m/s),SRR (%)"
+    lines = [f"{k},{load},{friction},{oil},{speed},5" for k, (load, friction, oil, speed) in enumerate(cells)]
+    scene = Scene.from_toml("mtm_zddp")
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "log.csv"
+        file.write_text("\n".join([head, *lines]))
+        rows = log_tables.rows_of(log_file.read(file, {}), [], None, None)
+        duty, data = log_tables.duty(rows), log_tables.data(rows)
+        if duty:  # refuses what is out of range
+            Duty.from_csv(log_tables.write(duty, Path(folder) / "duty.csv"), scene.operation.point)
+        if data:
+            read(log_tables.write(data, Path(folder) / "data.csv"), scene, "regression")
+    friction = [float(row[1]) for row in cells if row[1]]
+    kept = [row.measured["friction_coefficient"] for row in rows if "friction_coefficient" in row.measured]
+    assert set(kept) <= {value for value in friction if 0.0 <= value <= 10.0}
+
+
+@pytest.mark.parametrize(
+    ("rows", "said"),
+    [
+        (
+            "0,-9,0.1\n1,50,0.1\n2,50,0.1\n",
+            "'Load (N)': cells that are not from 0 to 100000 N, as load is, count as not measured: 1, such as -9.",
+        ),
+        ("0,-9,0.1\n1,50,0.1\n2,50,0.1\n", "speed or temperature that the contact takes are left out: 1."),
+        ("0,50,1e30\n1,50,-0.1\n2,50,0.1\n", "as friction_coefficient is, count as not measured: 2, such as 1e30."),
+        ("-9,50,0.1\n1,50,0.1\n2,50,0.1\n", "as time is, count as not measured: 1, such as -9."),
+    ],
+)
+def test_cells_that_cannot_have_been_measured_are_counted(
+    rows: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("rig.csv").write_text(f"Time (s),Load (N),Friction Coefficient\n{rows}")
+    assert main(["log", "rig.csv"]) == 0
+    assert said in capsys.readouterr().err
+
+
+RIG = "Time (s);Load (N);Friction Coefficient;Oil Temp (degC);Mean Speed (mm/s);SRR (%)"
+
+
+@pytest.mark.parametrize(
+    ("head", "times"),
+    [
+        (RIG.replace("Time (s)", "Time"), ["00:00:00", "00:00:30", "00:02:00"]),
+        (RIG.replace("Time (s)", "Time"), ["00:00:00,0", "00:00:30,0", "00:02:00,0"]),
+        (RIG, ["0", "30", "120"]),
+        (
+            "Time;Load;Friction Coefficient;Oil Temp;Mean Speed;SRR\ns;N;-;°C;mm/s;%",
+            ["0", "30", "120"],
+        ),
+        (
+            "Time;Load (N);Friction Coefficient;Oil Temp;Mean Speed;SRR\n[min];;;[degC];[mm/s];[%]",
+            ["0", "0,5", "2"],
+        ),
+    ],
+)
+def test_a_clock_and_a_line_of_units_are_read(
+    head: str, times: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    rows = [f"{time};{load};0,1;80;100;5" for time, load in zip(times, (50, 50, 60), strict=True)]
+    Path("rig.csv").write_text("\n".join([head, *rows]), "utf-8")
+    assert main(["log", "rig.csv"]) == 0
+    duty = Duty.from_csv("rig_duty.csv", Scene.from_toml("mtm_zddp").operation.point)
+    assert duty.times == (0.0, 120.0)
+    assert [p.load for p in duty.points] == [50.0, 60.0]
+    assert (duty.points[0].speed_1, duty.points[0].temperature) == approx((0.1025, 353.15), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("rows", "said"),
+    [
+        ("0,50\n1,60\n0,70\n1,80\n", "No duty: the time falls back from 1 s to 0 s, as in another test. Make a log"),
+        ("0,50\n1,60\n1,70\n", "No duty: inputs change at 1 s, and again at that time."),
+        ("0,50\n0,60\n", "No duty: inputs change, but there is no column of time"),
+    ],
+)
+def test_why_there_is_no_duty_is_told(
+    rows: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    lines = [f"{row},0.1" for row in rows.split()]
+    Path("rig.csv").write_text("\n".join(["Time (s),Load (N),Friction Coefficient", *lines]))
+    assert main(["log", "rig.csv"]) == 0
+    assert said in capsys.readouterr().err
+    assert not Path("rig_duty.csv").exists()
+
+
+def test_data_to_fit_have_a_range_too(tmp_path: Path) -> None:
+    (tmp_path / "data.csv").write_text("time [s],friction_coefficient [1]\n0,0.1\n1,1e30\n")
+    with pytest.raises(SceneError, match=r"friction_coefficient = 1e\+30 .* at most 10"):
+        read(tmp_path / "data.csv", Scene.from_toml("mtm_zddp"), "regression")

@@ -19,6 +19,7 @@ from test_ssp import SPACES, imported, structure
 
 from fmu_src.flavours import WITH_PYTHON
 from system_models.cli.main import main
+from system_models.cli.scenes import tell_unreached
 from system_models.machines import reading
 from system_models.machines.assembly import Assembly
 from system_models.machines.export import with_timetable
@@ -35,6 +36,7 @@ SHORT = """time [s],entrainment_speed [m/s],slide_roll_ratio [1]
 4,0.1,0.05
 9,0.1,0.05
 """
+LOADS = "time [s],load [N],entrainment_speed [m/s],slide_roll_ratio [1]\n0,20,1,0\n60,30,1,0\n"
 SMALL = {
     "contact.film.points": "17",
     "contact.surface_1.correlation_length": "32 um",
@@ -56,6 +58,79 @@ def rig(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     monkeypatch.chdir(tmp_path)
     Path("short.csv").write_text(SHORT)
     return ["run", "mtm_rig", "--duty", "short.csv", *COARSE]
+
+
+def test_a_table_of_the_command_line_leaves_what_is_set_beside_it(tmp_path: Path) -> None:
+    table = tmp_path / "short.csv"
+    table.write_text(LOADS)
+    repeated = reading.duty_of(reading.read("mtm_rig", {"duty.repeat": "3"}, table))
+    assert (repeated.end, repeated.course("load")) == (180.0, [(0.0, 20.0)])
+    longer = reading.duty_of(reading.read("mtm_rig", {"duty.duration": "2 min"}, table))
+    assert (longer.end, longer.course("load")) == (120.0, [(0.0, 20.0), (60.0, 30.0)])
+    cut = reading.duty_of(reading.read("mtm_rig", {"simulate.stop_time": "90 s"}, table))
+    assert (cut.end, cut.course("load")) == (60.0, [(0.0, 20.0), (60.0, 30.0)])
+    assert reading.duty_of(reading.read("mtm_rig", {"duty.ambient": "20 degC"}, table)).rows[0][1]["ambient"] == 293.15
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (["mtm_rig", "--duty", "short.csv", "--set", "duty.load=9 N"], "duty.load is set, but has no effect: the duty"),
+        (["mtm_rig", "--duty", "short.csv", "--set", "duty.steps=[]"], "[duty] has steps and file. Keep one"),
+        (["mtm_zddp", "--duty", "short.csv", "--set", "operation.load=9 N"], "operation.load is set, but has no"),
+    ],
+)
+def test_what_is_given_twice_is_refused_and_not_dropped(
+    given: list[str], said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("short.csv").write_text("time [s],load [N]\n0,20\n60,30\n")
+    assert main(["run", *given]) == 2
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("option", "key", "value"),
+    [
+        ("hours", "simulate.stop_time", "9"),
+        ("grid", "contact.film.points", "17"),
+        ("duty", "duty.file", "a.csv"),
+        ("hours", "operation.duration", "9 s"),
+        ("accuracy", "control.accuracy", "0.1"),
+        ("grid", "film.points", "17"),
+        ("duty", "operation.file", "a.csv"),
+    ],
+)
+def test_what_an_option_replaces_is_told(
+    option: str, key: str, value: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("system_models.cli.machine._run_in", lambda *_: 0)  # nothing is simulated
+    monkeypatch.setattr("system_models.cli.contact._run_in", lambda *_: 0)
+    name = "mtm_rig" if key.startswith(("simulate", "duty", "contact")) else "mtm_zddp"
+    Path("short.csv").write_text(LOADS if name == "mtm_rig" else "time [s],load [N]\n0,20\n60,30\n")
+    given = {"hours": "1", "grid": "128", "accuracy": "5 %", "duty": "short.csv"}[option]
+    assert main(["run", name, "--force", f"--{option}", given, "--set", f"{key}={value}"]) == 0
+    assert f"--{option} stands for {key}: '{value}', which --set gives, is not used" in capsys.readouterr().err
+
+
+def test_rows_after_the_end_of_a_run_are_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    tell_unreached([0.0, 60.0, 3600.0], 3600.0)  # the row at the end is its mark
+    assert not capsys.readouterr().err
+    tell_unreached([0.0, 60.0, 3600.0], 30.0)
+    assert "The run ends at 30 s, the duty's last change is at 3600 s: 2 of its 3 rows" in capsys.readouterr().err
+    monkeypatch.setattr("system_models.cli.machine._run_in", lambda *_: 0)  # nothing is simulated
+    monkeypatch.chdir(tmp_path)
+    Path("short.csv").write_text(SHORT)
+    assert main(["run", "mtm_rig", "--duty", "short.csv", "--hours", "0.001"]) == 0
+    assert "The run ends at 3.6 s, the duty's last change is at 4 s: 1 of its 5 rows" in capsys.readouterr().err
+    monkeypatch.setattr("system_models.cli.contact._run_in", lambda *_: 0)
+    Path("long.csv").write_text("time [h],load [N]\n0,20\n60,30\n70,20")
+    assert main(["run", "mtm_zddp", "--duty", "long.csv"]) == 0
+    assert "2 of its 3 rows are not reached" in capsys.readouterr().err
 
 
 def test_a_machine_runs_from_one_command(rig: list[str], capsys: pytest.CaptureFixture[str], drawn: bool) -> None:

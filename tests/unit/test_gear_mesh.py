@@ -161,6 +161,13 @@ def test_all_outputs_are_finite_for_any_state(sharing, torque, speed):
     assert (row(mesh, found, "load") >= 0.0).all()
 
 
+def test_a_loss_over_next_to_no_power_is_no_coefficient_of_friction():
+    for speed in (1e-300, 1e-20, -1e-12, 0.0):
+        assert (
+            answered(GearMesh(pair=FZG_C, stations=5), speed=speed, power_loss=[5.0] * 5)["friction_coefficient"] == 0.0
+        )
+
+
 def test_outputs_depend_on_no_inputs_but_those_they_name():
     mesh, random = GearMesh(pair=FZG_C, load_sharing=ELASTIC), np.random.default_rng(2)
     inputs = {q.name: float(random.uniform(1.0, 2.0)) for q in mesh.inputs}

@@ -128,3 +128,29 @@ def test_a_scene_takes_the_set_from_any_folder(tmp_path: Path, monkeypatch: pyte
     assert surface.heights.spacing == approx(2e-6, rel=1e-12)
     assert surface.microroughness.rms == approx(found.below.rms, rel=1e-3)
     assert surface.rq == 0.0
+
+
+@pytest.mark.parametrize("mark", [1e30, -1e30, 3.4e38, -9.0, np.inf])
+def test_heights_that_stand_for_none_are_gaps(mark: float) -> None:
+    z = waves(4e-6)
+    marked = z.copy()
+    marked[20:24, 40:44] = mark
+    found = patch_of(image(marked).without_marks(), "none", None, None)
+    assert found.missing == approx(16 / 128**2, rel=1e-12)
+    assert np.ptp(found.heights) == approx(np.ptp(z), rel=1e-6)
+    assert image(z).without_marks().missing == 0.0
+
+
+@pytest.mark.parametrize(
+    ("height", "step", "said"),
+    [
+        (1e-14, STEP, r"rms height of 'made.x3p' is 1e-14 m; 2e-10 to 0\.0001 m is plausible"),
+        (1.0, 1.0, "rms height of 'made.x3p' is 1 m"),
+        (1e-6, 1e-8, "rms slope of 'made.x3p' is"),
+        (1e-5, 2e-3, r"distance of neighbours of 'made.x3p' is 0.002 m; above 0, up to 0\.001 m is plausible"),
+    ],
+)
+def test_a_surface_of_impossible_size_is_refused_before_a_scene_does(height: float, step: float, said: str) -> None:
+    z = waves(4e-6, height=np.sqrt(2.0) * height)
+    with pytest.raises(ContactError, match=said):
+        patch_of(HeightImage(z, (step, step), "made.x3p"), "none", None, None)

@@ -65,6 +65,12 @@ def test_a_standing_shaft_is_held_up_to_the_resisting_torque(torque, resisting):
     assert Shaft(0.5).advance((0.0, 7.0), _torques(torque, resisting), 60.0) == (0.0, 7.0)
 
 
+def test_a_torque_that_hardly_differs_from_none_slows_a_shaft_by_its_damping():
+    for torque in (1e-300, 5e-324, -5e-324):
+        speed, _ = Shaft(inertia=0.5, damping=0.1).advance((20.0, 0.0), _torques(0.0, torque), 2.0)
+        assert speed == approx(20.0 * math.exp(-0.4), rel=1e-12)
+
+
 def test_a_shaft_breaks_away_when_the_drive_is_stronger():
     torques = _torques(2.5, 2.0)
     assert Shaft(0.5).advance((0.0, 0.0), torques, 2.0) == approx((2.0, 2.0), rel=1e-13)

@@ -261,3 +261,25 @@ def test_changes_that_do_not_fit_are_refused(folder: Path, change: tuple[str, st
 def test_a_missing_file_is_refused(folder: Path) -> None:
     with pytest.raises(CouplingError, match=r"In '.*no.toml': The file cannot be read: No such file"):
         read(folder / "no.toml")
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("rig.ssp", r"This is an SSP, which is written here \(--ssp\) and not read"),
+        ("rig.fmu", r'This is an FMU, not the TOML file of a system\. Write one: \[fmus\] block = "rig\.fmu"'),
+        ("rig.toml", r"This is an archive, not the TOML file of a system"),
+    ],
+)
+def test_an_archive_in_place_of_a_system_is_named(name: str, said: str, tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / name, "w") as archive:
+        archive.writestr("modelDescription.xml", "")
+    with pytest.raises(CouplingError, match=said):
+        read(tmp_path / name)
+
+
+def test_outputs_that_are_no_numbers_are_named(tmp_path: Path) -> None:
+    describe(tmp_path / "teller.fmu", [("v", "output", "Real"), ("label", "output", "String")])
+    system = System({"teller": tmp_path / "teller.fmu"})
+    assert [port.name for port in system.outputs(None)] == ["teller.v"]
+    assert system.left_out() == ["teller.label"]

@@ -3,16 +3,21 @@
 import math
 import tomllib
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 from comparison import approx
+from hypothesis import given
+from hypothesis import strategies as st
 
-from contact_core import SceneError
+from contact_core import OperatingPoint, SceneError
 from contact_core.quantities import Quantity
 from system_models.machines import timeline
 from system_models.machines.files import shipped_files
 from system_models.machines.timeline import Timeline
+from system_models.run.duty import Duty
 
+POINT = OperatingPoint(load=50.0, speed_1=0.1, speed_2=0.2, temperature=350.0)
 SIGNALS = {
     "speed": Quantity("speed", "n", "rad/s", "speed of the shaft", "input", display="rpm"),
     "load": Quantity("load", "F", "N", "radial load", "input", minimum=0.0, maximum=2e4),
@@ -100,6 +105,30 @@ def test_a_duration_holds_the_last_row(tmp_path: Path) -> None:
     duty = read('[duty]\nfile = "cycle.csv"\nduration = "3 min"', write(tmp_path, TABLE))
     assert duty.end == 180.0
     assert duty.course("speed")[-1] == (120.0, 0.0)
+
+
+TIMES = st.lists(st.integers(1, 50), max_size=5, unique=True).map(sorted)
+
+
+@given(TIMES, st.integers(1, 3), st.sampled_from([0, 9]), st.integers(1, 300))
+def test_each_row_of_a_table_holds_until_the_next_as_long_as_the_simulation(times, repeat, longer, stop):
+    with TemporaryDirectory() as folder:
+        lines = [f"{time},{k}" for k, time in enumerate([0, *times])]
+        (Path(folder) / "table.csv").write_text("\n".join(["time [s],load [N]", *lines]))
+        end = (times[-1] if times else stop) + longer
+        table = {"file": "table.csv", "repeat": repeat} | ({"duration": f"{end} s"} if longer else {})
+        course = timeline.read(table, SIGNALS, Path(folder), stop=float(stop)).course("load")
+        scene = Duty.from_csv(Path(folder) / "table.csv", POINT)
+    assert [time for time, _ in course] == sorted({time for time, _ in course})
+    for time in range(stop):
+        held = [value for at, value in course if at <= time][-1]
+        within = time % end if time < repeat * end else end  # the last row holds once all is done
+        assert held == scene.at(within).load
+
+
+def test_a_table_of_one_row_holds_as_long_as_the_simulation_or_is_refused(tmp_path: Path) -> None:
+    folder = write(tmp_path, "time [s],load [N]\n0,1\n")
+    assert timeline.read({"file": "cycle.csv"}, SIGNALS, folder, stop=9.0).schedule() == {"load": [(0.0, 1.0)]}
 
 
 def test_a_file_takes_the_place_of_steps_and_cycles(tmp_path: Path) -> None:

@@ -18,12 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .geometry import BallBearingGeometry
-from .kernels import cage, settle
+from .kernels import BALANCED, cage, settle
 
 Array = NDArray[np.float64]
 
 _CENTRING = 1e-2  # N/m: holds the ring where no ball does, such as in its clearance
-_BALANCED = 1e-9  # of the largest force, at least of 1 N: more left over is no equilibrium
 
 
 class RingLoads(NamedTuple):
@@ -56,7 +55,7 @@ class Equilibrium:
     @property
     def converged(self) -> bool:
         """True if the forces balance."""
-        return self.residual <= _BALANCED
+        return self.residual <= BALANCED
 
 
 def solve(

@@ -21,6 +21,8 @@ _jit = njit(cache=True, nogil=True, error_model="numpy")
 
 _STEPS, _CUTS, _ROUNDS = 200, 60, 200
 _EPS = 2.3e-16
+_NOTHING = 1e-100  # N: a force below is none, so that no square of one underflows where nothing holds a ball
+BALANCED = 1e-9  # of the largest force, at least of 1 N: more left over is no equilibrium
 _UNTOUCHED = 1e-2  # N: less on all inner contacts together hardly drives the cage
 _SHARP = 4.0
 _GRAZING = 0.1  # least cosine between a ball's axis and the plane of its contact, where no groove reaches any more
@@ -79,7 +81,7 @@ def _seat_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
     norm = np.hypot(gx, gr)
     for _ in range(_STEPS):
         floor = _EPS * size * (hxx + hrr)
-        if norm <= floor:
+        if norm <= max(floor, _NOTHING):
             break
         hxx, hrr = hxx + norm / size, hrr + norm / size  # no step beyond the bearing's size where nothing holds it
         scale = 1.0 / _determinant(hxx, hxr, hrr)
@@ -182,23 +184,25 @@ def seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring,
     slope, curvature, trial = np.zeros(5), np.zeros((5, 5)), np.zeros(5)
     _at_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature)
     norm, steps = np.abs(slope).max(), 0
-    while norm > 0.0 and steps < _STEPS:
+    while norm > _NOTHING and steps < _STEPS:
         steps += 1
         for i in range(5):
             curvature[i, i] += norm / size
         step = _solved(curvature, -slope)
         down, part = _product(slope, step), 1.0
         low, below, high, above = 0.0, down, 1.0, 0.0
-        for _ in range(_CUTS):
+        for cut in range(_CUTS):
             trial[:] = ring + part * step
             _at_ring(trial, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature)
             along = _product(slope, step)
             if _is_far_enough(along, down, part):
                 break
             part, low, below, high, above = _between(part, along, low, below, high, above)
+            if cut == _CUTS - 2:
+                part = 0.0  # back: rounding decides which way is down
         ring[:] = trial
         before, norm = norm, np.abs(slope).max()
-        if norm <= least and norm > 0.5 * before:
+        if part == 0.0 or (norm <= least and norm > 0.5 * before):
             break
     return norm, steps
 
@@ -277,25 +281,37 @@ def settle(  # type: ignore[no-untyped-def]
     inertia [Z, 2]: forces of inertia on the balls over speed^2; a first guess, improved in place. masses: ball's mass
     times pitch radius, and twice its moment of inertia over its diameter. Gyroscopic moments are those of outer race
     control, held by friction on that race. Returns the largest force left over, the largest force, and Newton's steps.
+
+    A guess, of ring and inertia, that is no number, or out of the bearing, or leads to no balance is left for none.
     """
-    square, steps, before, wanted = speed * speed, 0, np.inf, np.empty_like(inertia)
-    left, largest, change = 0.0, 1.0, 0.0
-    for _ in range(_ROUNDS):
-        pressed = square * inertia
-        largest = max(np.abs(forces).max(), np.abs(pressed).max(), 1.0)
-        left, taken = seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, 1e-10 * largest)
-        steps += taken
-        motions(ring, balls, azimuths, centre, springs, holds, ratio, found)
-        orbit, change = cage(found, idle), 0.0
-        for j in range(balls.shape[0]):
-            # under outer race control the spin's radial part is orbit sin(outer) / ratio
-            outer, squared = found[j, 3], orbit * orbit
-            gyration = masses[1] * squared * np.sin(outer) / ratio
-            x, r = -gyration * np.cos(outer), masses[0] * squared + gyration * np.sin(outer)
-            wanted[j, 0], wanted[j, 1] = x, r
-            change = max(change, square * np.hypot(x - inertia[j, 0], r - inertia[j, 1]))
-        inertia += (1.0 if change < 0.5 * before else 0.5) * (wanted - inertia)
-        before = change
-        if change <= 1e-13 * largest:
+    size, square, seats, wanted = springs[1] + springs[3], speed * speed, balls.copy(), np.empty_like(inertia)
+    if not (np.abs(ring).sum() <= size and np.abs(inertia).sum() < np.inf):
+        ring[:] = 0.0
+        inertia[:] = 0.0
+    left, largest, change, steps, taken = 0.0, 1.0, 0.0, 0, 0
+    for _ in range(2):
+        before = np.inf
+        for _ in range(_ROUNDS):
+            pressed = square * inertia
+            largest = max(np.abs(forces).max(), np.abs(pressed).max(), 1.0)
+            left, taken = seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, 1e-10 * largest)
+            steps += taken
+            motions(ring, balls, azimuths, centre, springs, holds, ratio, found)
+            orbit, change = cage(found, idle), 0.0
+            for j in range(balls.shape[0]):
+                # under outer race control the spin's radial part is orbit sin(outer) / ratio
+                outer, squared = found[j, 3], orbit * orbit
+                gyration = masses[1] * squared * np.sin(outer) / ratio
+                x, r = -gyration * np.cos(outer), masses[0] * squared + gyration * np.sin(outer)
+                wanted[j, 0], wanted[j, 1] = x, r
+                change = max(change, square * np.hypot(x - inertia[j, 0], r - inertia[j, 1]))
+            inertia += (1.0 if change < 0.5 * before else 0.5) * (wanted - inertia)
+            before = change
+            if change <= 1e-13 * largest:
+                break
+        if max(left, change) <= BALANCED * largest:
             break
+        ring[:] = 0.0
+        inertia[:] = 0.0
+        balls[:] = seats
     return max(left, change), largest, steps

@@ -2,7 +2,8 @@
 
     [drive]            parts.speed_source.SpeedSource of the pinion
     [brake]            parts.brake.Brake of the wheel
-    [shafts]           shafts.GearShafts; `pair` is that of the mesh, `stiffness` by default the mean of its teeth
+    [shafts]           shafts.GearShafts; `pair` is that of the mesh, `stiffness` by default the mean of its teeth,
+                       `start_speed` that of the duty
     [mesh]             mesh.GearMesh; pair = "fzg_c", "fzg_a" or the numbers of another one
     [gearbox]          parts.thermal.ThermalNetwork with the nodes pinion, wheel and oil (heat_flows = 1)
     [rating]           rating.Rating, for the standards in the report; optional
@@ -50,13 +51,14 @@ def design(table: Mapping[str, Any], duty: Timeline) -> Design:
     table = {**table, "mesh": _with_pair(table.get("mesh", {}))}
     mesh: GearMesh = record(GearMesh, table, "mesh")
     shafts = {"stiffness": f"{mean_stiffness(mesh.pair) * mesh.pair.face_width!r} N/m", **table.get("shafts", {})}
-    table["shafts"] = {"pair": table["mesh"]["pair"], **shafts}
+    start = {"start_speed": f"{duty.course('speed')[0][1]!r} rad/s"}  # if the file has none: that of the duty
+    table["shafts"] = {"pair": table["mesh"]["pair"], **start, **shafts}
     scene = scene_of(table)
     drive: SpeedSource = record(SpeedSource, table, "drive")
     parts: dict[str, Part] = {
         "drive": drive,
         "brake": record(Brake, table, "brake"),
-        "shafts": record(GearShafts, table, "shafts"),
+        "shafts": _started(record(GearShafts, table, "shafts"), duty),
         "mesh": mesh,
         "gearbox": record(ThermalNetwork, table, "gearbox"),
     }
@@ -70,6 +72,20 @@ def design(table: Mapping[str, Any], duty: Timeline) -> Design:
         schedule,
         {"rating": record(Rating, table, "rating")} if "rating" in table else {},
     )
+
+
+def _started(shafts: GearShafts, duty: Timeline) -> GearShafts:
+    """Return the shafts. Raises SceneError if the coupling to a drive at another speed would break the teeth."""
+    drive = duty.course("speed")[0][1]
+    force = abs(shafts.coupling * (drive - shafts.start_speed)) / shafts.pair.base_radius_1
+    most = TABLE["load"].maximum
+    if force > most:
+        raise SceneError(
+            f"shafts.start_speed = {shafts.start_speed:g} rad/s, but the duty begins at {drive:g} rad/s: through the "
+            f"coupling, {shafts.coupling:g} N m s/rad, the teeth would get {force:.2g} N, and {most:g} N at most are "
+            "possible. Leave start_speed out, which is that of the duty then, or let the duty begin there."
+        )
+    return shafts
 
 
 def foreseen(parts: Mapping[str, Part], signals: Mapping[str, float]) -> dict[str, dict[str, float]]:

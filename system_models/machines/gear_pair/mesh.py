@@ -30,6 +30,7 @@ RECEIVED = {
 SENT = {"load": 1000.0, "speed_1": 1.0, "speed_2": 1.0}
 _CAUSE = {"load": "torque", "speed_1": "speed_1", "speed_2": "speed_2"}
 _IDLE = 1.0  # N: a force between the teeth of which ratios say nothing
+_RESTING = 1e-9  # W: power below which gears stand, and a ratio to it says nothing
 
 
 def flank(k: int) -> str:
@@ -142,7 +143,7 @@ class GearMesh(Part):
             mean("heat_flow_1", "Q_1", "W", 50.0, heat_1, "heat of sliding into the pinion"),
             mean("heat_flow_2", "Q_2", "W", 50.0, heat_2, "heat of sliding into the wheel"),
             mean("friction_coefficient", "mu_mz", "1", 0.1, power + loss,
-                 f"sliding loss over power times Ohlendorf's loss factor, 0 below {_IDLE:g} N"),
+                 f"sliding loss over power times Ohlendorf's loss factor, 0 below {_IDLE:g} N or {_RESTING:g} W"),
             mean("friction_coefficient_mean", "mu_m", "1", 0.1, torque + friction,
                  f"mean friction force over mean load, 0 below {_IDLE:g} N"),
             mean("loss_factor", "H_V", "1", 0.1, torque,
@@ -209,7 +210,7 @@ class GearMesh(Part):
         if force < _IDLE:
             return {"friction_coefficient": 0.0, "friction_coefficient_mean": 0.0, "loss_factor": 0.0}
         return {
-            "friction_coefficient": sliding / (power * ohlendorf(self.pair)) if power else 0.0,
+            "friction_coefficient": sliding / (power * ohlendorf(self.pair)) if power > _RESTING else 0.0,
             "friction_coefficient_mean": self._mean(friction) / self._mean(load),
             "loss_factor": loss_factor(self.pair, self._places, load / force),
         }

@@ -1,0 +1,113 @@
+"""Pauses, zero and tiny loads, reversals and restarts leave nothing behind in components and contacts."""
+
+import json
+import math
+import random
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+
+import pytest
+from comparison import approx
+from component_examples import EXAMPLES
+from test_parts_random import WIDEST
+
+from contact_core import OperatingPoint, Scene, advance, initial_state, shipped_scenes
+from system_models.machines import reading
+from system_models.parts.part import Input, Part, State, Values, start_values
+
+COUNTS = [1, pytest.param(1000, marks=pytest.mark.long)]
+MACHINES = ("bearing_209", "bearing_218", "gear_fzg_c", "cam_follower", "mtm_rig")
+LONG = 1e7  # s, after which components have come to rest
+SUMS = ("revolutions", "energy", "heater_energy")  # outputs over all the past
+UNTOUCHED = {"tribofilm.model": "none", "wear.model": "none"}
+COMPARED = ("h_c", "friction_coefficient", "contact_load_ratio", "pressure_max", "rolling_resistance")
+
+
+@cache
+def parts() -> dict[str, Part]:
+    """Those of shipped machines, each once, and examples."""
+    machines = {name: reading.assemble(reading.read(name)).parts for name in MACHINES}
+    found = {part: f"{machine}.{name}" for machine, parts in machines.items() for name, part in parts.items()}
+    return {name: part for part, name in found.items()} | {name: part for name, (part, _) in EXAMPLES.items()}
+
+
+def usual(part: Part) -> dict[str, float]:
+    """Inputs that a component has at work: those of its start, a thousandth of what is usual where they are 0."""
+    values = start_values(part)
+    return {q.name: values[q.name] or min(max(q.nominal, q.minimum), q.maximum) for q in part.inputs}
+
+
+def drawn(rng: random.Random, q: Input, at_work: float) -> float:
+    """Nothing, next to nothing, a reversal, an end of the range, or anything."""
+    low, high = (min(max(end, q.minimum), q.maximum) for end in WIDEST.get(q.unit, (-1e3, 1e3)))
+    tiny = rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-320.0, -3.0)
+    value = rng.choice([0.0, 0.0, tiny, tiny * at_work, -at_work, at_work, low, high, rng.uniform(low, high)])
+    return min(max(value, q.minimum), q.maximum)
+
+
+def duties(part: Part, rng: random.Random) -> Iterator[tuple[Values, float]]:
+    """Inputs and lengths of steps [s]: pauses among anything."""
+    at_work = usual(part)
+    for _ in range(rng.randint(2, 6)):
+        pause = {q.name: min(max(0.0, q.minimum), q.maximum) for q in part.inputs}
+        anything = {q.name: drawn(rng, q, at_work[q.name]) for q in part.inputs}
+        for _ in range(rng.randint(1, 3)):
+            yield rng.choice([pause, anything]), 10.0 ** rng.uniform(-6.0, 4.0)
+
+
+def settled(part: Part, state: State) -> dict[str, float]:
+    """Outputs after a long time at work."""
+    at_work = usual(part)
+    for _ in range(2):
+        state = part.advance(state, at_work, LONG)
+    return {name: value for name, value in part.outputs(state, at_work).items() if not name.startswith(SUMS)}
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_components_return_from_any_duty_to_what_they_are_without_it(count: int) -> None:
+    for name, part in parts().items():
+        undisturbed = settled(part, part.initial(usual(part)))
+        nominal = {q.name: q.nominal for q in part.responses}
+        allowed = {key: 1e-6 * max(abs(value), nominal[key]) for key, value in undisturbed.items()}
+        for seed in range(count):
+            state = part.initial(usual(part))
+            for inputs, step in duties(part, random.Random(f"{name} {seed}")):
+                state = tuple(json.loads(json.dumps(part.advance(state, inputs, step))))  # as a restart does
+                found = part.outputs(state, inputs)
+                assert all(map(math.isfinite, (*state, *found.values()))), (name, seed, inputs)
+            for key, value in settled(part, state).items():
+                assert abs(value - undisturbed[key]) <= allowed[key], (name, seed, key)
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_contacts_return_from_any_duty_to_what_they_are_without_it(count: int) -> None:
+    for name in shipped_scenes():
+        scene = Scene.from_toml(name, UNTOUCHED).at_level("regression")
+        worked, free = Scene.from_toml(name).at_level("regression"), initial_state(scene)
+        point = scene.operation.point
+        _, undisturbed = advance(scene, point, free, 1.0)
+        for seed in range(count):
+            rng = random.Random(f"{name} {seed}")
+            state, rubbed = free, initial_state(worked)
+            for _ in range(rng.randint(2, 5)):
+                now, step = paused(rng, point), 10.0 ** rng.uniform(-3.0, 4.0)
+                state, out = advance(scene, now, state, step)
+                rubbed, other = advance(worked, now, rubbed, step)
+                for found in (out, other):
+                    numbers = [value for value in vars(found).values() if isinstance(value, float)]
+                    assert all(map(math.isfinite, numbers)), (name, seed, now)
+            _, out = advance(scene, point, state, 1.0)
+            for key in COMPARED:
+                assert getattr(out, key) == approx(getattr(undisturbed, key), rel=1e-9), (name, seed, key)
+
+
+def paused(rng: random.Random, point: OperatingPoint) -> OperatingPoint:
+    """An operating point at rest, without load, hardly moving, reversed, or another."""
+
+    def other(value: float) -> float:
+        tiny = 10.0 ** rng.uniform(-300.0, -1.0)
+        return rng.choice([0.0, value, -value, tiny * value, rng.uniform(0.0, 2.0) * value])
+
+    moved = replace(point, load=abs(other(point.load)), speed_1=other(point.speed_1), speed_2=other(point.speed_2))
+    return rng.choice([moved, replace(point, load=0.0, speed_1=0.0, speed_2=0.0)])
