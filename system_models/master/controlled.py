@@ -1,5 +1,6 @@
 """Communication steps as large as a tolerance allows."""
 
+import logging
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -16,10 +17,13 @@ from .coupled import Coupled, Point
 from .recorder import Recorder
 from .stepping import Attempt, Stepper
 
+log = logging.getLogger(__name__)
+
 _MATTERS = 0.1  # of the error that a step may have: less says nothing about how it adds up
 _LEAST_SHARE = 1e-5  # of the tolerance: a hundred thousand such steps use it up
 _ROUNDING = 1e-12  # no iteration is asked for more
 _EVIDENCE = 3  # repeated steps in a row
+_SINGLE = 2.0**-22  # of a magnitude: differences of values of single precision are known to that
 _ITERATED = 0.05  # of the allowed error of a step: the iteration's part
 
 
@@ -42,6 +46,8 @@ class ControlledStepper(Stepper):
         self._holds = coupled.settings.order > 0 and bool(coupled.wiring.sampled.any())
         self.control = StepControl(1 if self._holds else coupled.settings.order + 1)
         self._controlled = _mask(coupled)
+        self._noise = _SINGLE if any(connection.single for connection in coupled.system.connections) else 0.0
+        self._noise_told = False
         # how often in a row a coupled output has seemed to lag only
         self.lags = np.zeros(len(coupled.wiring.coupled), dtype=int)
         self._may_lag = np.array([coupled.may_lag(place) for place in coupled.wiring.coupled], dtype=bool)
@@ -84,6 +90,7 @@ class ControlledStepper(Stepper):
             if before:
                 attempt = self._with_new_evidence(before, attempt)
             if attempt.error <= 1.0 or self._is_smallest(attempt.size):
+                self._tell_noise(attempt)
                 self.statistics.below_min_step += attempt.error > 1.0
                 size = max(self.min_step, attempt.size * self.control.accept(attempt.error))
                 self.size = min(size, self.coupled.settings.max_step or math.inf)
@@ -103,7 +110,7 @@ class ControlledStepper(Stepper):
         coupled = self.coupled
         size, middle_time = end - start.time, start.time + 0.5 * (end - start.time)
         if coupled.settings.iteration_tolerance is None:
-            coupled.iteration_tolerance = max(_ROUNDING, _ITERATED * self.tolerance * self._share(size))
+            coupled.iteration_tolerance = max(_ROUNDING, self._noise, _ITERATED * self.tolerance * self._share(size))
         whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
         whole = coupled.advance(end, start)
         outputs, before = coupled.outputs[coupled.wiring.coupled], coupled.ends()
@@ -149,13 +156,31 @@ class ControlledStepper(Stepper):
         return self.coupled.magnitudes.scales(self.coupled.outputs)[self.coupled.wiring.coupled]
 
     def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
-        share = np.where(self.lags < _EVIDENCE, self._share(size), 1.0)
-        return wrms(errors, self.tolerance * share * self._scales())
+        return wrms(errors, np.maximum(self._shares(size), self._noise) * self._scales())
+
+    def _shares(self, size: float) -> NDArray[np.float64]:
+        """Return the errors that a step may have, relative to the magnitudes."""
+        return self.tolerance * np.where(self.lags < _EVIDENCE, self._share(size), 1.0)
+
+    def _tell_noise(self, attempt: Attempt) -> None:
+        """Warn, once, of an error that is not seen for the noise of single precision."""
+        if (
+            self._noise
+            and not self._noise_told
+            and wrms(attempt.errors, self._shares(attempt.size) * self._scales()) > 1
+        ):
+            self._noise_told = True
+            log.warning(
+                "FMUs exchange values of single precision (Float32): errors of steps are known to %.1e of the values, "
+                "and the result may miss tolerance = %g. Take a larger one, or a hold order of 1 or 2.",
+                _SINGLE,
+                self.tolerance,
+            )
 
     def _with_new_evidence(self, earlier: Attempt, attempt: Attempt) -> Attempt:
         """Look which errors add up, now that a step is repeated with another size."""
-        allowed = self.tolerance * self._share(attempt.size) * self._scales()
-        matters = (attempt.errors > _MATTERS * allowed) & (attempt.gains > 0.0)
+        least = max(_MATTERS * self.tolerance * self._share(attempt.size), self._noise)
+        matters = (attempt.errors > least * self._scales()) & (attempt.gains > 0.0)
         settings = self.coupled.settings
         does_not = self._order_is_reduced if settings.iterate else self._follows_at_once
         self.lags = np.where(matters, np.where(does_not(earlier, attempt), self.lags + 1, 0), self.lags)

@@ -38,7 +38,7 @@ class Settings:
         the connections.
     order
         Of the polynomials that extrapolate inputs over a step, through derivatives where the FMU takes them; another
-        FMU holds their mean.
+        FMU holds their mean. Signals that are discrete at one end hold their values.
     iterate
         Repeat each step until the inputs at its end are those that follow from the outputs: `numerics.iteration`. A
         step that does not converge stands, and is counted in `unconverged`.

@@ -50,12 +50,12 @@ def simulate(
 
     options: the other fields of `Settings`: algorithm, order, iterate, tolerance and so on.
 
-    outputs: the variables to record, by default all outputs. checkpoint: a folder in which the state is kept; with
-    `resume` the simulation continues from there, bit for bit. Or a Checkpoint of the caller, who knows what it belongs
-    to: its `saved` point, if any, is continued from. about: texts that a checkpoint keeps for its readers. history: the
-    course of coupled outputs before the time 0, f(t) by name, for hold orders above 0. progress is called with the time
-    reached; observe, before a checkpoint, with the time [s] of the first row and of the last one of each step, and with
-    the running FMUs, which it must leave as they are.
+    outputs: the variables to record, by default all outputs; `valid` of FMUs of tribofmu comes with them. checkpoint: a
+    folder in which the state is kept; with `resume` the simulation continues from there, bit for bit. Or a Checkpoint
+    of the caller, who knows what it belongs to: its `saved` point, if any, is continued from. about: texts that a
+    checkpoint keeps for its readers. history: the course of coupled outputs before the time 0, f(t) by name, for hold
+    orders above 0. progress is called with the time reached; observe, before a checkpoint, with the time [s] of the
+    first row and of the last one of each step, and with the running FMUs, which it must leave as they are.
 
     Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", statistics of each step;
     "bond.*", the difference between the powers that the two FMUs of a bond compute. Its attributes count steps,

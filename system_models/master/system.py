@@ -79,6 +79,11 @@ class Connection:
         return discrete(self.source.variable) or discrete(self.target.variable)
 
     @property
+    def single(self) -> bool:
+        """True if an end is of single precision."""
+        return "Float32" in (self.source.variable.type, self.target.variable.type)
+
+    @property
     def coupled(self) -> bool:
         """True for a Real input that is set in every step; the others are set when their values change."""
         model, variable = self.target.model, self.target.variable

@@ -82,6 +82,17 @@ def test_a_real_of_single_precision_is_coupled_as_one_of_double(
     assert found[-2] == approx(run(plain, **scheme)[-2], rel=1e-4)
 
 
+def test_a_tolerance_below_what_single_precision_shows_is_told(
+    folder: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Rounding is no error that shorter steps lower, nor one that tells which outputs lag."""
+    system = declared_oscillator(folder, tmp_path, 3, set(), {*SIGNALS})
+    for tolerance, steps, told in ((1e-3, 40, 0), (1e-6, 200, 1)):
+        found = simulate(system, 0.3, 1e-2, order=2, tolerance=tolerance, outputs=["one.x"])
+        assert found.attrs["steps"] < steps
+        assert sum("single precision" in message for message in caplog.messages) == told
+
+
 def test_a_tolerance_is_kept_where_some_inputs_hold_whatever_the_order(
     folder: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
