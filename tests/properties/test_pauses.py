@@ -111,3 +111,16 @@ def paused(rng: random.Random, point: OperatingPoint) -> OperatingPoint:
 
     moved = replace(point, load=abs(other(point.load)), speed_1=other(point.speed_1), speed_2=other(point.speed_2))
     return rng.choice([moved, replace(point, load=0.0, speed_1=0.0, speed_2=0.0)])
+
+
+def test_a_solved_contact_takes_next_to_no_load_and_speed_for_none() -> None:
+    coarse = {"film.points": "33", "surface_1.correlation_length": "16 um", "surface_2.correlation_length": "16 um"}
+    scene = Scene.from_toml("mtm_zddp", coarse)
+    point = scene.operation.point
+    resting, hardly = (
+        replace(point, load=load, speed_1=speed, speed_2=speed) for load, speed in ((0.0, 0.0), (1e-200, 1e-200))
+    )
+    still, moving = (replace(point, speed_1=speed, speed_2=speed) for speed in (0.0, 1e-250))
+    for none, next_to_none in ((resting, hardly), (still, moving)):
+        state = initial_state(scene)
+        assert advance(scene, next_to_none, state, 0.0)[1] == advance(scene, none, state, 0.0)[1]

@@ -179,3 +179,8 @@ def test_an_interrupt_while_workers_start_leaves_one_sentence(tmp_path: Path) ->
     assert process.returncode == 130
     assert "Traceback" not in said
     assert "the same command goes on from there" in said
+
+
+def test_a_key_that_is_varied_and_set_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sweep", "mtm_zddp", "--vary", "operation.load=20 N,30 N", "--set", "operation.load=9 N"]) == 2
+    assert "operation.load: --vary and --set give it. Keep one of the two." in capsys.readouterr().err
