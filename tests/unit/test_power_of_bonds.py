@@ -14,7 +14,7 @@ def reals(name: str) -> SimpleNamespace:
 
 def connection(source: str, target: str, factor: float = 1.0, offset: float = 0.0) -> SimpleNamespace:
     ends = {"source": SimpleNamespace(name=source), "target": SimpleNamespace(name=target)}
-    return SimpleNamespace(**ends, factor=factor, offset=offset)
+    return SimpleNamespace(**ends, factor=factor, offset=offset, sampled=False)
 
 
 def test_a_bond_of_temperature_and_entropy_has_one_power_in_kelvin_and_in_degrees() -> None:
