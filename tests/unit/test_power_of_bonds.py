@@ -13,7 +13,7 @@ def reals(name: str) -> SimpleNamespace:
 
 
 def connection(source: str, target: str, factor: float = 1.0, offset: float = 0.0) -> SimpleNamespace:
-    ends = {"source": SimpleNamespace(name=source), "target": SimpleNamespace(name=target)}
+    ends = {"source": SimpleNamespace(name=source, kind="real"), "target": SimpleNamespace(name=target)}
     return SimpleNamespace(**ends, factor=factor, offset=offset, sampled=False)
 
 
