@@ -13,6 +13,7 @@ from ..fmu.errors import FmuError
 from . import binaries, model_rules, unit_rules
 from .model_rules import Rule
 from .package import Package
+from .related import MANIFEST, related
 from .verdict import Answer, failed, noted, passed, some
 
 _SCHEMATA = {
@@ -96,11 +97,18 @@ def licence(package: Package) -> Answer:
 
 
 def reference_data(package: Package) -> Answer:
-    """Check that there are results with which an importer can check itself."""
-    found = [name for name in package.names if name.endswith("ref.csv")]
+    """Check that there are results with which an importer can check itself, and that named ones are there."""
+    try:
+        roles = related(package.archive.document(MANIFEST)) if MANIFEST in package.names else {}
+    except FmuError as error:
+        return failed(str(error))
+    named = [name for name, role in roles.items() if role in ("experiment", "result")]
+    if missing := sorted(set(named) - set(package.names)):
+        return noted(f"{MANIFEST} names {some(missing)}, which the FMU does not hold.")
+    found = named or [name for name in package.names if name.endswith("ref.csv")]
     if found:
         return passed(f"{some(found)}; --deep replays it.")
-    return noted("There are no reference results (*ref.csv): an importer cannot check itself.")
+    return noted("There are no reference results (fmi-ls-ref or *ref.csv): an importer cannot check itself.")
 
 
 RULES: dict[str, Rule] = {

@@ -113,4 +113,8 @@ def _description(name: str, path: Path) -> ModelDescription:
             f"The FMU '{path}' of '{name}' is made for model exchange only: it brings no solver of its own. "
             "Export it for co-simulation."
         )
+    if {"/", "\\"} & set(library := str(description.coSimulation.modelIdentifier)):
+        raise CouplingError(
+            f"The FMU '{path}' of '{name}' names '{library}' as its library, a path and no name. Export it anew."
+        )
     return description
