@@ -161,3 +161,11 @@ def test_a_file_that_is_there_twice_fails_where_hosts_would_differ(tmp_path: Pat
         (tmp_path / "it.fmu").write_bytes(buffer.getvalue())
         with opened(tmp_path / "it.fmu") as package:
             assert report.static.archive(package).verdict == verdict
+
+
+@pytest.mark.parametrize("library", ["../../three", "/tmp/three", "..\\\\three"])
+def test_a_library_out_of_the_folder_is_not_loaded(tmp_path: Path, library: str) -> None:
+    outside = DESCRIPTION.format(doctype="").replace('modelIdentifier="three"', f'modelIdentifier="{library}"')
+    (tmp_path / "it.fmu").write_bytes(packed({XML: outside}))
+    with pytest.raises(CouplingError, match="as its library, a path and no name"):
+        Model("it", tmp_path / "it.fmu")
