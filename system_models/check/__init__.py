@@ -6,7 +6,7 @@
     deep         rules that run the FMU, each in processes of its own, watched for crashes and hangs, within a budget
     stages       the entry of such a process
     answers      rules on the answers of the FMU; derivatives: on those that it gives itself
-    reference    rules on the results that it carries
+    reference    rules on the results that it carries; related: files that its manifest names
     calls        rules on calls that a host should not make
     hosts        rules on the effects of the FMU on its host; confine: the folders that it may write to
     instance     one instance of the FMU, its calls written down; library: its library, whatever the version of FMI

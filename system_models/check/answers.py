@@ -148,17 +148,30 @@ def _distance(first: dict, second: dict, name: str) -> float:
 
 
 def sweep(fmu: Fmu, notebook: Path) -> Answer:
-    """Check the FMU with every input at both ends of its range and at zero."""
+    """Check that the FMU can use every input at both ends of its range and at zero."""
     settings = [(v.name, x) for v in fmu.inputs if v.variability == "continuous" for x in extremes(v)]
     if not settings:
         return not_applicable("There is no continuous input with a range.")
+    unused: list[str] = []
     with again(fmu) as get:
-        already = _broken_after(get(), {})
+        instance = get()
+        before = reals_of(fmu, instance)
+        usual = instance.objection(instance.step).said
+        already, moves = instance.broken(), reals_of(fmu, instance) != before
         for number, (name, value) in enumerate(settings):
             fmu.progress = f"{number} of {len(settings)} settings have been stepped with, and are right"
-            broken = sorted(_broken_after(get(), {name: value}) - already)
-            if broken:
-                return failed(f"{some(broken)} not finite after a step with {name} = {value:g}, which is in its range.")
+            instance, setting = get(), f"{name} = {value:g}"
+            objection = instance.objection(partial(instance.step, inputs={name: value}))
+            if objection.refused:
+                said = f"{objection.said} ({fmu.complaint()})" if fmu.complaint() else objection.said
+                return failed(f"A step with {setting}, which is in its range, is answered with {said}.")
+            if broken := sorted(instance.broken() - already):
+                return failed(f"{some(broken)} not finite after a step with {setting}, which is in its range.")
+            stands = moves and reals_of(fmu, instance) == before
+            if objection.said not in ("", usual) and (stands or objection.said == "warning"):
+                unused.append(f"{setting} ({objection.said}{', and the outputs stand still' if stands else ''})")
+    if unused:
+        return noted(f"In the range of inputs, but not used without a reservation: {some(unused)}.")
     return passed(f"{len(settings)} steps with inputs at the ends of their ranges and at zero.")
 
 

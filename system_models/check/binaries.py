@@ -1,14 +1,13 @@
 """Rules on the binaries of an FMU."""
 
 import re
-import zipfile
-import zlib
 from pathlib import PurePosixPath
 
 from fmpy.fmi3 import FMU3Slave
 
 from fmu_src.isolated.native import image
 
+from ..fmu.errors import FmuError
 from .package import Package
 from .verdict import Answer, failed, not_applicable, noted, passed, some
 
@@ -73,7 +72,7 @@ def _unfit(package: Package) -> str:
             image.read(data)
         except image.DamagedError as error:
             return f"{name} cannot be loaded: {error}, perhaps cut short."
-        except (image.ImageError, zipfile.BadZipFile, zlib.error):
+        except (image.ImageError, FmuError):
             continue  # of a kind that is not read here, or a matter of the archive
     return ""
 
@@ -137,6 +136,6 @@ def _libraries(package: Package) -> tuple[dict[str, image.Image], str]:
     for platform, name in sorted(package.binaries.items()):
         try:
             libraries[platform] = image.read(package.archive.read(name))
-        except (image.ImageError, zipfile.BadZipFile, zlib.error) as error:
+        except (image.ImageError, FmuError) as error:
             unread.append(f"{platform} was not examined: {error}.")
     return libraries, " ".join(unread)

@@ -76,7 +76,7 @@ def findings(
         unpacked, notebook = Path(folder) / "fmu", Path(folder) / "notebook"
         notebook.mkdir()
         if not reason:
-            package.archive.extractall(unpacked)
+            package.archive.unpack(unpacked)
         for rule, stages in RULES.items():
             if reason:
                 yield Finding(rule, *not_applicable(reason))

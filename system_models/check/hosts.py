@@ -19,6 +19,7 @@ from pathlib import Path
 from .answers import FirstRun, disturbed
 from .confine import confine
 from .instance import Fmu, Instance
+from .rows import STEPS, rows_alone
 from .verdict import Answer, not_applicable, noted, passed
 
 _SETTLED, _CYCLES = 5, 20  # instances: until caches are full, and then
@@ -28,12 +29,12 @@ _NOWHERE = "/dev/null/home"  # a home folder that cannot be made
 
 
 def memory(fmu: Fmu, notebook: Path) -> Answer:
-    """Check that instances that are made and freed leave little behind."""
+    """Check that instances that are made, run for some steps and freed leave little behind."""
     single = fmu.capabilities.canBeInstantiatedOnlyOncePerProcess
     with nullcontext() if single else fmu.instance():  # which keeps loaded what they share
         before = _memory_after(fmu, _SETTLED)
         growth = (_memory_after(fmu, _CYCLES) - before) / _CYCLES
-    evidence = f"{_SETTLED + _CYCLES} instances made and freed"
+    evidence = f"{_SETTLED + _CYCLES} instances made, run for {STEPS} steps and freed"
     if math.isnan(growth):
         return passed(f"{evidence}; memory is measured on Linux only.")
     evidence += f"; memory grows by {max(growth, 0.0):.0f} kB per instance."
@@ -41,10 +42,9 @@ def memory(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def _memory_after(fmu: Fmu, count: int) -> float:
-    """Return the memory [kB] of this process after so many instances; NaN where the system does not tell it."""
+    """Return the memory [kB] of this process after so many runs; NaN where the system does not tell it."""
     for _ in range(count):
-        with fmu.instance():
-            pass
+        rows_alone(fmu)
         gc.collect(1)  # what fmpy leaves
     try:
         text = Path("/proc/self/smaps_rollup").read_text()

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import fmpy
 from fmpy.fmi1 import FMICallException
+from fmpy.model_description import DefaultExperiment, ModelDescription
 
 from ..fmu import messages
 from ..fmu.kinds import kind
@@ -23,6 +24,7 @@ Row = dict[str, str]  # outputs as text that differs where bits differ
 
 _LONGEST = 300  # characters of a message, from its end, where a traceback names the error
 _FEW = 100.0  # steps in an experiment that names no step
+_MANY = 1000.0  # steps that an FMU makes in one of these, if it says which it makes
 
 
 class Complaints(logging.Handler):
@@ -80,7 +82,7 @@ class Fmu:
         self.outputs = [v for v in outputs if is_readable(v)]
         self.unread = [v.name for v in outputs if not is_readable(v)]  # arrays, clocks and binary data of FMI 3
         self.inputs = [v for v in variables if v.causality == "input" and is_real(v) and is_readable(v)]
-        self.start_time, self.step = _experiment(self.description.defaultExperiment)
+        self.start_time, self.step = _experiment(self.description)
         self._complaints = _complaints()
         self.fault = ""  # the call that an instance has refused, and how
         self.where = ""  # circumstances of the next calls, if unusual
@@ -132,13 +134,13 @@ class Fmu:
         return {v.name: clipped(v, float(v.start or 0.0) + 0.01 * number * magnitude(v)) for v in moving}
 
 
-def _experiment(experiment: Any) -> tuple[float, float]:
+def _experiment(description: ModelDescription) -> tuple[float, float]:
     """Start time and step in s of the default experiment."""
-    if experiment is None:
-        return 0.0, 1.0 / _FEW
+    experiment = description.defaultExperiment or DefaultExperiment()
     start = float(experiment.startTime or 0.0)
     length = float(experiment.stopTime or start + 1.0) - start
-    return start, float(experiment.stepSize or length / _FEW)
+    inner = float(description.coSimulation.fixedInternalStepSize or math.inf)
+    return start, float(experiment.stepSize or min(length / _FEW, _MANY * inner))
 
 
 def _complaints() -> Complaints:

@@ -1,7 +1,5 @@
 """An FMU file, opened: its archive, and its model description as XML and as fmpy's object."""
 
-import zipfile
-import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -11,14 +9,10 @@ import fmpy
 from fmpy.model_description import ModelDescription
 from lxml import etree
 
-from contact_core.errors import ContactError
+from ..fmu import archive
+from ..fmu.archive import DESCRIPTION, Archive
 
-DESCRIPTION = "modelDescription.xml"
 _SUFFIXES = {".so", ".dll", ".dylib"}
-
-
-class FmuError(ContactError):
-    """A file that cannot be read as an FMU."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +20,7 @@ class Package:
     """An FMU that could be opened. `description` is None where fmpy cannot interpret it; `problem` says why."""
 
     path: Path
-    archive: zipfile.ZipFile
+    archive: Archive
     root: etree._Element
     description: ModelDescription | None
     problem: str = ""
@@ -34,7 +28,7 @@ class Package:
     @property
     def names(self) -> list[str]:
         """The files in the archive."""
-        return [name for name in self.archive.namelist() if not name.endswith("/")]
+        return self.archive.names
 
     @property
     def version(self) -> str:
@@ -81,24 +75,14 @@ class Package:
 @contextmanager
 def opened(path: Path) -> Iterator[Package]:
     """Open an FMU. Raises FmuError if it is no archive with a model description."""
-    try:
-        archive = zipfile.ZipFile(path)
-    except OSError as error:
-        raise FmuError(f"'{path}' cannot be read: {error.strerror}. Give the path of an .fmu file.") from None
-    except zipfile.BadZipFile:
-        raise FmuError(f"'{path}' is not a zip archive, or is cut short. Build or copy the FMU again.") from None
-    with archive:
-        yield _package(path, archive)
+    with archive.opened(path) as file:
+        root = file.document(DESCRIPTION)
+        yield Package(path, file, root, *_interpreted(path))
 
 
-def _package(path: Path, archive: zipfile.ZipFile) -> Package:
+def _interpreted(path: Path) -> tuple[ModelDescription | None, str]:
+    """Return fmpy's description, or why there is none."""
     try:
-        root = etree.fromstring(archive.read(DESCRIPTION), etree.XMLParser(resolve_entities=False))
-    except KeyError:
-        raise FmuError(f"'{path}' holds no {DESCRIPTION} at its top: it is not an FMU.") from None
-    except (etree.XMLSyntaxError, zipfile.BadZipFile, zlib.error) as error:
-        raise FmuError(f"{DESCRIPTION} in '{path}' cannot be read: {error}. Build the FMU again.") from None
-    try:
-        return Package(path, archive, root, fmpy.read_model_description(str(path), validate=False))
+        return fmpy.read_model_description(str(path), validate=False), ""
     except Exception as error:  # fmpy raises many errors for a wrong document
-        return Package(path, archive, root, None, f"{type(error).__name__}: {error}")
+        return None, f"{type(error).__name__}: {error}"

@@ -7,73 +7,136 @@ from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
 
-from lxml import etree
+from fmpy.fmi1 import FMICallException
 
+from ..fmu.archive import parsed
+from ..fmu.kinds import kind
 from .instance import Fmu
-from .variables import magnitude
-from .verdict import Answer, failed, not_applicable, passed, some
+from .related import MANIFEST, located, related
+from .variables import is_readable, magnitude
+from .verdict import Answer, failed, not_applicable, noted, passed, some
 
 _TOLERANCE = 1e-3  # of reference results that state none
 _RELATIVE_TOLERANCE = re.compile(r"^\s*RelTol\W+([\d.eE+-]+)", re.MULTILINE)
 _TRUTH = {"true": 1.0, "false": 0.0}
 
 
+class _Recorded(NamedTuple):
+    """Results of a run, its inputs, and the difference that is allowed, relative to the largest value."""
+
+    results: Path
+    stimuli: Path | None
+    tolerance: float
+    told: bool  # the FMU says how they came about: inputs that are not named were not changed
+
+
 def reference(fmu: Fmu, notebook: Path) -> Answer:
     """Check that the reference results that the FMU carries are reproduced."""
     fmu.start = {}  # they are of the FMU as it is
-    files = sorted(fmu.folder.rglob("*ref.csv"))
-    if not files:
-        return not_applicable("There are no reference results (*ref.csv) in the FMU.")
-    compared = 0
-    for file in files:
-        results = _table(file)
+    records = list(_records(fmu.folder))
+    if not records:
+        return not_applicable("There are no reference results: neither *ref.csv nor any that fmi-ls-ref names.")
+    compared, different = 0, []
+    for record in records:
+        try:
+            count, wrong = _compared(fmu, record)
+        except FMICallException:
+            count, wrong = 0, f"{fmu.fault}."
+        if wrong and record.told:
+            return failed(wrong)
+        compared += count
+        fmu.progress = f"{compared} values have come out again"
+        different += [wrong] if wrong else []
+    if different:
+        return noted(f"{different[0]} Its manifest names no experiment, so that inputs and steps may have been others.")
+    if not compared:
+        return not_applicable("The reference results hold no single numbers, which alone are compared here.")
+    files = some([record.results.name for record in records])
+    return passed(f"{compared} values of {files} come out again within their tolerance.")
+
+
+def _records(folder: Path) -> Iterator[_Recorded]:
+    """Yield the results of experiments, those named *ref.csv, and those that the manifest names alone."""
+    manifest = folder / MANIFEST
+    roles = related(parsed(manifest.read_bytes())) if manifest.exists() else {}
+    there = {folder / name: role for name, role in roles.items() if (folder / name).is_file()}
+    known = set()
+    for file in sorted({*folder.rglob("*.exp"), *(f for f, role in there.items() if role == "experiment")}):
+        for record in _of_experiments(folder, file):
+            known.add(record.results)
+            yield record
+    for file in sorted({*folder.rglob("*ref.csv")} - known):
+        known.add(file)
         held = file.with_name(file.name.removesuffix("ref.csv") + "in.csv")
-        stimuli = _table(held) if held.exists() else _Table([], [], [])
-        unknown = sorted({*results.names, *stimuli.names} - set(fmu.variables))
-        if unknown:
-            return failed(f"{file.name} or {held.name} names {some(unknown)}, which are no variables of the FMU.")
-        allowed = _allowed(fmu, results, _tolerance(file))
-        for time, row, wanted in zip(results.times, _replayed(fmu, results, stimuli), results.rows, strict=True):
-            for name, value in wanted.items():
-                if not abs(row[name] - value) <= allowed[name]:
-                    return failed(
-                        f"{name} is {row[name]!r} at {time:g} s; {file.name} has {value!r} +- {allowed[name]:.2g}."
-                    )
-                compared += 1
-            fmu.progress = f"{compared} values have come out again"
-    return passed(f"{compared} values of {some([file.name for file in files])} come out again within their tolerance.")
+        yield _Recorded(file, held if held.exists() else None, _tolerance(file), told=True)
+    for file, role in there.items():
+        if role == "result" and file.suffix == ".csv" and file not in known:
+            yield _Recorded(file, None, _TOLERANCE, told=False)
+
+
+def _of_experiments(folder: Path, file: Path) -> Iterator[_Recorded]:
+    """Yield the results of each experiment in a file."""
+    for experiment in parsed(file.read_bytes()).iter("Experiment"):
+        named = {
+            tag: [folder / path for e in experiment.iter(tag) if (path := _beside(folder, file, e.get("source", "")))]
+            for tag in ("References", "Stimuli")
+        }
+        tolerance = float(experiment.get("tolerance", _TOLERANCE))
+        for results in named["References"]:
+            yield _Recorded(results, next(iter(named["Stimuli"]), None), tolerance, told=True)
+
+
+def _beside(folder: Path, document: Path, source: str) -> str:
+    """Return the path in the FMU of a table that a document names; an empty text if there is none."""
+    path = located(document.relative_to(folder).as_posix(), source)
+    return path if path and (folder / path).is_file() else ""
+
+
+def _tolerance(file: Path) -> float:
+    """Return the relative tolerance of results that no experiment names: RelTol in their .opt."""
+    options = file.with_suffix(".opt")
+    stated = _RELATIVE_TOLERANCE.search(options.read_text("utf-8")) if options.exists() else None
+    return float(stated[1]) if stated else _TOLERANCE
+
+
+def _compared(fmu: Fmu, record: _Recorded) -> tuple[int, str]:
+    """Return how many values have come out again, and the first difference, as a sentence."""
+    results = _table(fmu, record.results)
+    stimuli = _table(fmu, record.stimuli) if record.stimuli else _Table([], [], [], [])
+    if unknown := sorted({*results.unknown, *stimuli.unknown}):
+        files = " or ".join(file.name for file in (record.results, record.stimuli) if file)
+        return 0, f"{files} names {some(unknown)}, which are no variables of the FMU."
+    allowed = _allowed(fmu, results, record.tolerance)
+    for time, row, wanted in zip(results.times, _replayed(fmu, results, stimuli), results.rows, strict=True):
+        for name, value in wanted.items():
+            if not abs(row[name] - value) <= allowed[name]:
+                file = record.results.name
+                return 0, f"{name} is {row[name]!r} at {time:g} s; {file} has {value!r} +- {allowed[name]:.2g}."
+    return len(results.rows) * len(results.names), ""
 
 
 class _Table(NamedTuple):
-    names: list[str]
+    names: list[str]  # of numbers and Booleans: others are not compared
+    unknown: list[str]
     times: list[float]  # s
     rows: list[dict[str, float]]
 
 
-def _table(file: Path) -> _Table:
+def _table(fmu: Fmu, file: Path) -> _Table:
     """Read a CSV with a header; its first column is the time."""
     with file.open(newline="", encoding="utf-8") as stream:
         head, *lines = [line for line in csv.reader(stream) if line]
-    names = [name.strip() for name in head[1:]]
-    rows = [{n: _number(cell) for n, cell in zip(names, line[1:], strict=True)} for line in lines]
-    return _Table(names, [float(line[0]) for line in lines], rows)
+    columns = [name.strip() for name in head]
+    known = {name: v for name in columns[1:] if (v := fmu.variables.get(name)) is not None}
+    names = [name for name, v in known.items() if is_readable(v) and kind(v) != "string"]
+    cells = [dict(zip(columns, line, strict=True)) for line in lines]
+    rows = [{name: _number(row[name]) for name in names} for row in cells]
+    return _Table(names, [n for n in columns[1:] if n not in known], [float(line[0]) for line in lines], rows)
 
 
 def _number(cell: str) -> float:
     text = cell.strip().lower()
     return _TRUTH[text] if text in _TRUTH else float(text)
-
-
-def _tolerance(file: Path) -> float:
-    """Return the relative tolerance of reference results: of their experiment (fmi-ls-ref), or RelTol in their .opt."""
-    for path in file.parent.glob("*.exp"):
-        for experiment in etree.parse(path).iter("Experiment"):
-            about = {element.get("source") for element in experiment.iter("References")}
-            if file.name in about and "tolerance" in experiment.attrib:
-                return float(experiment.get("tolerance"))
-    options = file.with_suffix(".opt")
-    stated = _RELATIVE_TOLERANCE.search(options.read_text("utf-8")) if options.exists() else None
-    return float(stated[1]) if stated else _TOLERANCE
 
 
 def _allowed(fmu: Fmu, results: _Table, rtol: float) -> dict[str, float]:

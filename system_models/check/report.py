@@ -48,4 +48,9 @@ def exit_code(found: Iterable[Finding]) -> int:
     listed = list(found)
     if any(finding.verdict is Verdict.FAIL for finding in listed):
         return 1
-    return 3 if any(f.rule == "run" and f.evidence.startswith(deep.UNFINISHED) for f in listed) else 0
+    ran = all(
+        f.verdict is not Verdict.NOT_APPLICABLE and not f.evidence.startswith(deep.UNFINISHED)
+        for f in listed
+        if f.rule == "run"
+    )
+    return 0 if ran else 3

@@ -4,8 +4,8 @@ from collections.abc import Iterable
 
 from fmpy.model_description import ModelDescription, ModelVariable
 
+from ..fmu.errors import FmuError
 from ..fmu.kinds import kind
-from .package import FmuError
 from .variables import Start, attribute, is_readable
 
 _LEVEL = "fidelity"  # an Integer parameter: the lowest is the cheapest

@@ -1,18 +1,19 @@
 """Rules that need the file only: the table of all of them, and those on the archive and the files in it."""
 
 import re
-import zipfile
-import zlib
 from collections import Counter
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 import fmpy
 from fmpy.validation import validate_fmu
 from lxml import etree
 
+from ..fmu.archive import DESCRIPTION
+from ..fmu.errors import FmuError
 from . import binaries, model_rules, unit_rules
 from .model_rules import Rule
-from .package import DESCRIPTION, Package
+from .package import Package
+from .related import MANIFEST, related
 from .verdict import Answer, failed, noted, passed, some
 
 _SCHEMATA = {
@@ -24,28 +25,18 @@ _OTHER_SCHEMATA = {  # FMUs of FMI 2.0 may have them, too
     "terminalsAndIcons/terminalsAndIcons.xml": "fmi3/fmi3TerminalsAndIcons.xsd",
     "sources/buildDescription.xml": "fmi3/fmi3BuildDescription.xsd",
 }
-_PARSER = etree.XMLParser(resolve_entities=False)
 
 
 def archive(package: Package) -> Answer:
     """Check that every file is whole, stays in the folder and is there once."""
-    try:
-        damaged = package.archive.testzip()
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, OSError) as error:
-        return failed(f"The archive cannot be read to its end: {error}.")
-    if damaged:
-        return failed(f"'{damaged}' is damaged: its checksum is wrong.")
-    astray = [info.orig_filename for info in package.archive.infolist() if _leaves(info.orig_filename)]
-    if astray:
-        return failed(f"'{some(astray)}' must be relative, without '..', and with '/' between folders.")
-    twice = [name for name, count in Counter(package.names).items() if count > 1]
-    if twice:
-        return failed(f"In the archive more than once: {some(twice)}.")
+    if wrong := package.archive.damage() or package.archive.unfit():
+        return failed(wrong)
+    different = Counter(name for name, _ in {(info.filename, info.CRC) for info in package.archive.infos})
+    if twice := [name for name, count in different.items() if count > 1]:
+        return failed(f"In the archive more than once, each time another: {some(twice)}.")
+    if twice := [name for name, count in Counter(package.names).items() if count > 1]:
+        return noted(f"In the archive more than once, each time the same: {some(twice)}.")
     return passed(f"{len(package.names)} files, all whole, all within the folder.")
-
-
-def _leaves(name: str) -> bool:
-    return "\\" in name or name.startswith("/") or ":" in name.split("/")[0] or ".." in PurePosixPath(name).parts
 
 
 def schema(package: Package) -> Answer:
@@ -64,9 +55,9 @@ def _invalid(package: Package, name: str, schema_file: str) -> str:
     """Return the first error of a document in the archive; an empty text if it is valid."""
     xsd = etree.XMLSchema(file=str(Path(fmpy.__file__).parent / "schema" / schema_file))
     try:
-        root = package.root if name == DESCRIPTION else etree.fromstring(package.archive.read(name), _PARSER)
-    except (etree.XMLSyntaxError, zipfile.BadZipFile, zlib.error) as error:
-        return f"{name} cannot be read: {error}."
+        root = package.root if name == DESCRIPTION else package.archive.document(name)
+    except FmuError as error:
+        return str(error)
     if xsd.validate(root):
         return ""
     first = xsd.error_log[0]
@@ -85,7 +76,7 @@ def documentation(package: Package) -> Answer:
     """Check that there is a page for people."""
     page = "documentation/index.html"
     if page in package.names:
-        return passed(f"{page}, {package.archive.getinfo(page).file_size / 1024:.0f} kB.")
+        return passed(f"{page}, {package.archive.size(page) / 1024:.0f} kB.")
     return noted(f"There is no {page}.")
 
 
@@ -106,11 +97,18 @@ def licence(package: Package) -> Answer:
 
 
 def reference_data(package: Package) -> Answer:
-    """Check that there are results with which an importer can check itself."""
-    found = [name for name in package.names if name.endswith("ref.csv")]
+    """Check that there are results with which an importer can check itself, and that named ones are there."""
+    try:
+        roles = related(package.archive.document(MANIFEST)) if MANIFEST in package.names else {}
+    except FmuError as error:
+        return failed(str(error))
+    named = [name for name, role in roles.items() if role in ("experiment", "result")]
+    if missing := sorted(set(named) - set(package.names)):
+        return noted(f"{MANIFEST} names {some(missing)}, which the FMU does not hold.")
+    found = named or [name for name in package.names if name.endswith("ref.csv")]
     if found:
         return passed(f"{some(found)}; --deep replays it.")
-    return noted("There are no reference results (*ref.csv): an importer cannot check itself.")
+    return noted("There are no reference results (fmi-ls-ref or *ref.csv): an importer cannot check itself.")
 
 
 RULES: dict[str, Rule] = {

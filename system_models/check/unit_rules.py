@@ -16,19 +16,17 @@ _ROUNDED = 1e-5  # relative difference of a conversion for display that was writ
 
 @described
 def unit_of_reals(description: ModelDescription) -> Answer:
-    """Check that every Real has a unit, and the unit a base unit."""
-    reals = reals_of(description)
-    bare = [v.name for v in reals if attribute(v, "unit") is None]
-    if bare:
-        return failed(f"Without a unit: {some(bare)}; a number without dimension has the unit '1'.")
+    """Check that every unit is defined; FMI leaves open whether a Real has one, and a unit a base unit."""
+    units_of = {v.name: attribute(v, "unit") for v in reals_of(description)}
     defined = {unit.name: unit for unit in description.unitDefinitions}
-    unknown = [f"'{attribute(v, 'unit')}' of {v.name}" for v in reals if attribute(v, "unit") not in defined]
+    unknown = [f"'{unit}' of {name}" for name, unit in units_of.items() if unit is not None and unit not in defined]
     if unknown:
         return failed(f"Not in UnitDefinitions: the unit {some(unknown)}.")
-    empty = sorted({u for v in reals if defined[u := str(attribute(v, "unit"))].baseUnit is None})
-    if empty:
-        return failed(f"Without a BaseUnit: the unit {some(empty)}, which so cannot be converted or compared.")
-    return passed(f"{len(reals)} Reals with {len({attribute(v, 'unit') for v in reals})} units.")
+    if bare := [name for name, unit in units_of.items() if unit is None]:
+        return noted(f"Without a unit: {some(bare)}; hosts cannot compare them. A number without dimension has '1'.")
+    if empty := sorted({unit for unit in units_of.values() if unit and defined[unit].baseUnit is None}):
+        return noted(f"Without a BaseUnit: the unit {some(empty)}, which so cannot be converted or compared.")
+    return passed(f"{len(units_of)} Reals with {len({*units_of.values()})} units.")
 
 
 @described

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from contact_core.errors import ContactError
 
+from ..fmu.printable import printable
 from .console import add_settings
 
 
@@ -43,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     found = []
     with opened(arguments.fmu) as package:
         for finding in report.findings(package, arguments.deep, arguments.limit, arguments.budget, arguments.settings):
-            print(report.line(finding), flush=True)
+            print(printable(report.line(finding)), flush=True)
             found.append(finding)
-    print(f"{arguments.fmu}: {report.summary(found)}.")
+    print(printable(f"{arguments.fmu}: {report.summary(found)}."))
     return report.exit_code(found)

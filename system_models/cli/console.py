@@ -8,10 +8,12 @@ from pathlib import Path
 
 from contact_core.errors import ContactError
 
+from ..fmu.printable import printable
+
 
 def note(sentence: str) -> None:
     """Print a sentence that is no result on stderr."""
-    print(f"tribofmu: note: {sentence}", file=sys.stderr)
+    print(printable(f"tribofmu: note: {sentence}", kept="\n"), file=sys.stderr)
 
 
 def refuse_empty(arguments: argparse.Namespace) -> None:

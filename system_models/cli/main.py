@@ -17,6 +17,7 @@ import contact_core
 from contact_core.errors import ContactError
 from contact_core.scene.toml import did_you_mean
 
+from ..fmu.printable import printable
 from . import (
     build,
     check,
@@ -104,7 +105,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stdout.flush()  # here, so that a closed pipe is seen here and not at exit
         return code
     except ContactError as error:
-        print(f"tribofmu: {error}{see(error, arguments.command_name)}", file=sys.stderr)
+        print(printable(f"tribofmu: {error}{see(error, arguments.command_name)}", kept="\n\t"), file=sys.stderr)
         return 2
     except KeyboardInterrupt as interrupt:
         print(f"tribofmu: Interrupted. {interrupt}".rstrip(), file=sys.stderr)

@@ -7,8 +7,7 @@ from contextlib import ExitStack, chdir
 from pathlib import Path
 from typing import Any
 
-import fmpy
-
+from .archive import opened
 from .errors import CouplingError
 
 _LOADING = threading.Lock()  # fmpy changes the working directory while it loads a library
@@ -21,7 +20,8 @@ def unpack(path: Path, exits: ExitStack) -> str:
         raise CouplingError(
             f"FMUs cannot be loaded from '{folder}'. Set TMPDIR to a folder named in plain letters and digits."
         )
-    fmpy.extract(str(path), folder)
+    with opened(path) as archive:
+        archive.unpack(folder)
     return folder
 
 

@@ -11,6 +11,8 @@ from typing import Any
 from fmpy.fmi2 import defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.logging import addLoggerProxy
 
+from .printable import printable
+
 log = logging.getLogger(__name__)
 
 LEVELS = (logging.INFO, logging.WARNING, logging.WARNING, logging.ERROR, logging.CRITICAL)  # by FMI status
@@ -22,7 +24,7 @@ said: set[str] = set()  # names of FMUs that have given a message
 def pass_on(name: str, status: int, message: bytes | None) -> None:
     """Log the message of an FMU; a record has its FMI status and its text as attributes."""
     said.add(name)
-    text = (message or b"").decode("utf-8", "replace")
+    text = printable((message or b"").decode("utf-8", "replace"), kept="\n\t")
     log.log(LEVELS[min(status, len(LEVELS) - 1)], "%s: %s", name, text, extra={"status": status, "text": text})
 
 

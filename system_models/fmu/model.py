@@ -3,12 +3,12 @@
 from functools import cached_property
 from pathlib import Path
 from typing import Any
-from xml.etree import ElementTree
-from zipfile import ZipFile
 
 import fmpy
 from fmpy.model_description import ModelDescription, ModelVariable
+from lxml import etree
 
+from .archive import DESCRIPTION, opened
 from .errors import CouplingError
 
 _TRUE = ("true", "1")
@@ -19,9 +19,13 @@ class Model:
 
     def __init__(self, name: str, path: str | Path) -> None:
         self.name, self.path = name, Path(path)
+        if not self.path.exists():
+            raise CouplingError(f"The FMU '{path}' of '{name}' does not exist. Name an .fmu file.")
+        with opened(self.path) as archive:
+            root = archive.document(DESCRIPTION)
         self.description = _description(name, self.path)
         self.variables: dict[str, ModelVariable] = {v.name: v for v in self.description.modelVariables}
-        self._complete()
+        self._complete(root)
 
     @property
     def fmi3(self) -> bool:
@@ -68,10 +72,8 @@ class Model:
         inputs = frozenset(v.name for v in self.variables.values() if v.causality == "input")
         return self.dependencies | self._declared(self.description.initialUnknowns, inputs)
 
-    def _complete(self) -> None:
+    def _complete(self, root: etree._Element) -> None:
         """Add attributes to the variables that fmpy leaves out, and those of their declared types."""
-        with ZipFile(self.path) as archive:
-            root = ElementTree.fromstring(archive.read("modelDescription.xml"))
         for element in root.iterfind("ModelVariables/*"):
             typed = element if self.fmi3 else element.find("Real")
             if typed is None or element.get("name") not in self.variables:
@@ -95,8 +97,6 @@ class Model:
 
 
 def _description(name: str, path: Path) -> ModelDescription:
-    if not path.exists():
-        raise CouplingError(f"The FMU '{path}' of '{name}' does not exist. Name an .fmu file.")
     try:
         description = fmpy.read_model_description(str(path), validate=False)
     except Exception as error:
@@ -112,5 +112,9 @@ def _description(name: str, path: Path) -> ModelDescription:
         raise CouplingError(
             f"The FMU '{path}' of '{name}' is made for model exchange only: it brings no solver of its own. "
             "Export it for co-simulation."
+        )
+    if {"/", "\\"} & set(library := str(description.coSimulation.modelIdentifier)):
+        raise CouplingError(
+            f"The FMU '{path}' of '{name}' names '{library}' as its library, a path and no name. Export it anew."
         )
     return description

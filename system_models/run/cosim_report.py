@@ -8,6 +8,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..fmu.printable import printable
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -40,11 +42,6 @@ def _range(values: NDArray[Any]) -> tuple[Any, ...]:
 
 def _short(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, (float, int)) and not isinstance(value, bool) else str(value)
-
-
-def printable(text: str) -> str:
-    """Return a text in one line, without characters that a terminal would obey."""
-    return "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in text)
 
 
 def costs(dataset: xr.Dataset) -> str:

@@ -90,7 +90,8 @@ def test_what_is_worth_knowing_is_a_note(slave: Callable[..., Path]) -> None:
 
 
 def test_memory_that_instances_leave_behind_is_worth_a_note(slave: Callable[..., Path]) -> None:
-    found = deep_findings(slave("hoards", start="sys.hoard = [*getattr(sys, 'hoard', []), b'x' * (1 << 20)]"), "memory")
+    hoards = slave("hoards", step="if now == 0.0: sys.hoard = [*getattr(sys, 'hoard', []), b'x' * (1 << 20)]")
+    found = deep_findings(hoards, "memory")
     grown = re.search(r"grows by (\d+) kB", found["memory"].evidence)
     assert grown is not None
     assert found["memory"].verdict == Verdict.NOTE
@@ -124,6 +125,22 @@ def test_outputs_that_stand_still_must_be_told(
     found = answers(slave(name, **defect))["unusable input"]
     assert found.verdict == verdict
     assert evidence in found.evidence
+
+
+@pytest.mark.parametrize(
+    ("name", "step", "verdict"),
+    [
+        ("shrinks", "self.ok = self.u < 10.0; self.x = self.y = self.x if self.ok else 0.0", Verdict.NOTE),
+        ("signals", "self.ok = self.u < 10.0", Verdict.PASS),
+        ("rejects", "if self.u == 10.0: return False", Verdict.FAIL),
+    ],
+)
+def test_a_range_is_what_the_fmu_can_use(slave: Callable[..., Path], name: str, step: str, verdict: Verdict) -> None:
+    start = "self.ok = True; self.register_variable(Boolean('ok', causality=Fmi2Causality.output))"
+    found = answers(slave(name, step=step, start=start), "input range")["input range"]
+    assert found.verdict == verdict
+    assert verdict == Verdict.PASS or "u = 10" in found.evidence
+    assert verdict != Verdict.NOTE or "u = 10 (ok = false, and the outputs stand still)" in found.evidence
 
 
 def test_a_dependency_that_is_declared_is_no_fault(slave: Callable[..., Path], tmp_path: Path) -> None:
@@ -176,6 +193,35 @@ def test_reference_results_are_replayed(slave: Callable[..., Path]) -> None:
     found = answers(fmu)
     assert verdicts(found, Verdict.FAIL) == {"reference results"}
     assert "y is 7.0 at 3 s; ref.csv has 7.001 +- 0.0007" in found["reference results"].evidence
+
+
+EXPERIMENTS = """<Experiments><Experiment tolerance="{}">
+<Stimuli source="held.csv"/><References source="out.csv"/>
+</Experiment></Experiments>"""
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "alone", "verdict", "evidence"),
+    [
+        ("1e-2", "1.5", Verdict.PASS, "4 values of out.csv, alone.csv come out again within their tolerance."),
+        ("1e-2", "1.6", Verdict.NOTE, "alone.csv has 1.6 +- 0.0016. Its manifest names no experiment, so that inputs"),
+        ("1e-3", "1.5", Verdict.FAIL, "y is 1.0 at 1 s; out.csv has 1.005 +- 0.001."),
+    ],
+)
+def test_reference_results_are_those_that_the_manifest_names(
+    slave: Callable[..., Path], tolerance: str, alone: str, verdict: Verdict, evidence: str
+) -> None:
+    fmu = slave("named")
+    related = '<r><Related source="../runs.xml" role="experiment"/><Related source="../alone.csv" role="result"/></r>'
+    with zipfile.ZipFile(fmu, "a") as archive:
+        archive.writestr("extra/org.fmi-standard.fmi-ls-ref/fmi-ls-manifest.xml", related)
+        archive.writestr("extra/runs.xml", EXPERIMENTS.format(tolerance))
+        archive.writestr("extra/held.csv", "time,u\n0.0,1.0\n")
+        archive.writestr("extra/out.csv", "time,y\n0.0,0.0\n1.0,1.005\n")
+        archive.writestr("extra/alone.csv", f"time,y\n0.0,0.0\n1.0,{alone}\n")
+    found = answers(fmu, "reference results")["reference results"]
+    assert found.verdict == verdict
+    assert evidence in found.evidence
 
 
 @pytest.mark.parametrize(

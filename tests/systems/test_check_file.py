@@ -33,8 +33,11 @@ def test_our_own_fmu_breaks_no_rule(fmu: Path, capsys: pytest.CaptureFixture[str
 @pytest.mark.parametrize(
     ("edit", "rules", "evidence"),
     [
-        (replaced(' unit="1"', ""), {"units"}, "Without a unit"),
-        (replaced(r'(<Unit name="N">\s*)<BaseUnit [^>]*>', r"\1"), {"units"}, "Without a BaseUnit: the unit N,"),
+        (
+            replaced('(name="load".*\\s*<Real [^>]*)unit="N"', r'\1unit="newton"'),
+            {"units", "fmpy"},
+            "Not in UnitDefinitions: the unit 'newton' of load.",
+        ),
         (
             replaced(r'(<Unit name="N">\s*)<BaseUnit [^>]*>', r'\1<BaseUnit kg="1" m="1" s="-1"/>'),
             {"unit audit"},
@@ -74,13 +77,7 @@ def test_our_own_fmu_breaks_no_rule(fmu: Path, capsys: pytest.CaptureFixture[str
         ),
         (replaced('startTime="0.0"', 'startTime="7200"'), {"experiment"}, "stopTime = 7200.0 must be above startTime"),
         (replaced('stepSize="[^"]*"', 'stepSize="0"'), {"experiment"}, "stepSize = 0 must be finite and above zero"),
-        (replaced(' nominal="[^"]*"', ""), {"nominals"}, "Without a nominal: load;"),
         (replaced('(name="load".*\\s*<Real [^>]*start=)"[^"]*"', r'\1"-5"'), {"starts"}, "load starts at -5"),
-        (
-            replaced('(<Unknown index="[0-9]+") dependencies="" dependenciesKind=""', r"\1"),
-            {"dependencies"},
-            "Without dependencies: fr",
-        ),
         (
             replaced('(<Outputs>\\s*)<Unknown index="[0-9]+" [^>]*>', r"\1"),
             {"outputs", "fmpy"},
@@ -101,6 +98,26 @@ def test_a_defect_of_the_description_fails_its_rule_only(
     found = static_findings(edited(fmu, tmp_path / "edited.fmu", edit))
     assert verdicts(found, Verdict.FAIL) == rules
     assert any(evidence in found[rule].evidence for rule in rules)
+
+
+@pytest.mark.parametrize(
+    ("edit", "rule", "evidence"),
+    [
+        (replaced(' unit="1"', ""), "units", "Without a unit"),
+        (replaced(r'(<Unit name="N">\s*)<BaseUnit [^>]*>', r"\1"), "units", "Without a BaseUnit: the unit N,"),
+        (replaced(' nominal="[^"]*"', ""), "nominals", "Without a nominal: load;"),
+        (
+            replaced('(<Unknown index="[0-9]+") dependencies="" \\w+=""', r"\1"),
+            "dependencies",
+            "Without dependencies: fr",
+        ),
+    ],
+)
+def test_what_fmi_leaves_open_is_worth_a_note(fmu: Path, tmp_path: Path, edit: Edit, rule: str, evidence: str) -> None:
+    found = static_findings(edited(fmu, tmp_path / "edited.fmu", edit))
+    assert verdicts(found, Verdict.FAIL) == set()
+    assert found[rule].verdict == Verdict.NOTE
+    assert evidence in found[rule].evidence
 
 
 def test_a_description_that_cannot_be_interpreted_is_not_judged_further(fmu: Path, tmp_path: Path) -> None:
@@ -246,6 +263,39 @@ def test_what_cannot_be_run_here_is_not_judged(fmu: Path, tmp_path: Path) -> Non
     exchange = edited(fmu, tmp_path / "exchange.fmu", replaced("<CoSimulation ", "<ModelExchange "))
     for file in (none, exchange):
         assert verdicts(deep_findings(file), Verdict.NOT_APPLICABLE) == set(deep.RULES)
+
+
+MANIFEST = "extra/org.fmi-standard.fmi-ls-ref/fmi-ls-manifest.xml"
+
+
+@pytest.mark.parametrize(
+    ("manifest", "verdict", "evidence"),
+    [
+        (
+            '<r><Related source="../../documentation/index.html" role="result"/></r>',
+            "pass",
+            "documentation/index.html;",
+        ),
+        (
+            '<r><Related source="no%20where.exp" role="experiment/smoke-test"/></r>',
+            "note",
+            "no where.exp, which the FMU",
+        ),
+        ('<r><Related source="../../../../etc/hostname" role="result"/></r>', "note", "There are no reference results"),
+        ('<r><Related source="file:///etc/hostname" role="result"/></r>', "note", "There are no reference results"),
+        ('<!DOCTYPE r><r><Related source="x" role="result"/></r>', "fail", "it has a DOCTYPE"),
+    ],
+)
+def test_the_manifest_says_which_results_there_are(
+    fmu: Path, tmp_path: Path, manifest: str, verdict: str, evidence: str
+) -> None:
+    copy = edited(fmu, tmp_path / "named.fmu", unchanged)
+    with zipfile.ZipFile(copy, "a") as archive:
+        archive.writestr(MANIFEST, manifest)
+    with opened(copy) as package:
+        found = report.static.reference_data(package)
+    assert found.verdict == verdict
+    assert evidence in found.evidence
 
 
 FMI_3 = """<fmiModelDescription fmiVersion="3.0" modelName="three" instantiationToken="3">

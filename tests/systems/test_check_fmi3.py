@@ -43,7 +43,7 @@ def test_our_own_fmu_fails_no_rule(tmp_path: Path, flavour: Flavour, monkeypatch
     assert verdicts(static_findings(fmu), Verdict.FAIL) == set()
     found = answers(fmu)
     assert verdicts(found, Verdict.FAIL) == set()
-    assert verdicts(found, Verdict.NOTE) <= {"step splitting", "derivatives"}
+    assert verdicts(found, Verdict.NOTE) <= {"step splitting", "derivatives", "input range"}
     assert found["stop time"].verdict == Verdict.PASS
 
 
@@ -76,6 +76,12 @@ def test_a_state_that_is_promised_but_not_kept_fails_its_rules(tmp_path: Path) -
     promised = replaced('canGetAndSetFMUState="false" canSerializeFMUState="false"', 'canGetAndSetFMUState="true"')
     found = answers(edited(fmu, tmp_path / "promises.fmu", promised), "rollback")
     assert "fmi3GetFMUState was answered with error" in found["rollback"].evidence
+
+
+def test_a_step_that_nobody_gives_has_a_thousand_of_the_fmus_own_at_most(tmp_path: Path) -> None:
+    small = replaced("<CoSimulation ", '<CoSimulation fixedInternalStepSize="1e-6" ')
+    found = answers(edited(built("gain", tmp_path), tmp_path / "small.fmu", small), "finite")
+    assert "3 steps of 0.001 s" in found["run"].evidence
 
 
 def test_a_dependency_that_is_not_declared_fails_its_rule(tmp_path: Path) -> None:

@@ -9,9 +9,9 @@ import pytest
 from checking import deep_findings, edited, replaced, verdicts
 
 from system_models.check import deep, report
-from system_models.check.package import FmuError
 from system_models.check.verdict import Verdict
 from system_models.cli.main import main
+from system_models.fmu.errors import FmuError
 
 
 @pytest.fixture
