@@ -111,7 +111,8 @@ def test_changes_that_are_no_numbers_are_refused(mtm: Scene, monkeypatch: pytest
         advance(mtm, mtm.operation.point, initial_state(mtm), 1.0)
 
 
-def test_blocks_without_end_are_refused_before_they_are_solved() -> None:
+def test_blocks_without_end_are_refused_before_they_are_solved(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(parts, "MOST_PARTS", 2)  # where they are counted one by one
     scene, state, op = cheap(control__longest="1e-20 s")
     with pytest.raises(OperatingPointError, match=r"control\.longest = 1e-20 s.*Raise it"):
         advance(scene, op, state, 0.1)
