@@ -1,6 +1,7 @@
 """The variables of an FMU in order of value references: inputs, parameters and outputs of a scene, time."""
 
 import math
+import sys
 from dataclasses import Field, dataclass
 from typing import Any, Literal
 
@@ -152,10 +153,10 @@ def of_quantity(
 def of_number(name: str, value: float | int, field: "Field[Any]") -> Variable:
     """Return the parameter for a number of a scene or component.
 
-    FMI has closed ranges only: the bound of `above` is part of the range and refused when it is used.
+    FMI has closed ranges only: a range that excludes its lower bound begins with the next number that hosts can read.
     """
     above, least, most = (field.metadata[key] for key in ("above", "least", "most"))
-    low = above if above is not None else least if least is not None else -math.inf
+    low = _next(above) if above is not None else least if least is not None else -math.inf
     kind: Kind = "Integer" if isinstance(value, int) else "Real"
     unit, quantity = field.metadata["unit"], field.metadata["quantity"]
     magnitude = _magnitude(value, most)
@@ -172,6 +173,11 @@ def of_number(name: str, value: float | int, field: "Field[Any]") -> Variable:
         maximum=math.inf if most is None else most,
         quantity=quantity,
     )
+
+
+def _next(bound: float) -> float:
+    """Return the least number above a bound; above 0, the least that every host can read."""
+    return sys.float_info.min if bound == 0.0 else math.nextafter(bound, math.inf)
 
 
 def _magnitude(value: float, most: float | None) -> float:

@@ -8,9 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..errors import OperatingPointError
 from ..scene import Case, Scene
 from ..state import Body, ContactState, Outputs
 from ..state.bulk_temperature import NO_TIME, cool_time, temperatures_after
+from ..state.parts import MOST_PARTS, check_parts, check_tries
 from ..surfaces.patches import track_rows
 from ..surfaces.track_means import folded
 from .block import is_due, solve_block
@@ -29,9 +31,10 @@ _LEAST = {"load": 1e-9, "speed_1": 1e-30, "speed_2": 1e-30, "spin": 1e-30}  # N,
 def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
     """Return the state and outputs after `dt` [s] at the deterministic level."""
     case = _without_next_to_nothing(case)
+    _check_longest(case.scene, dt)
     state = folded(case.scene, state)
     before = [body.worn for body in state.bodies]
-    left = dt
+    left, parts = dt, 0
     while True:
         case = case.warmed(state.temperatures)
         changing = inputs_change(case, state)
@@ -39,6 +42,8 @@ def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, O
             state = solve_block(case, state)
         if left <= 0.0:
             break
+        check_parts(case, parts)
+        parts += 1
         if changing:
             step, change = min(left, longest_instant(case)), 0.0
             state = solve_instant_of_change(case, state, step)
@@ -59,6 +64,16 @@ def _without_next_to_nothing(case: Case) -> Case:
     """Return the case without a load or speeds so small that their powers are beyond the numbers there are."""
     none = {name: 0.0 for name, least in _LEAST.items() if 0.0 < abs(getattr(case.op, name)) < least}
     return replace(case, op=replace(case.op, **none)) if none else case
+
+
+def _check_longest(scene: Scene, dt: float) -> None:
+    """Raise OperatingPointError if a step has more blocks than could be solved, before hours go into them."""
+    longest = scene.control.longest
+    if dt > MOST_PARTS * longest:
+        raise OperatingPointError(
+            f"A step of {dt:g} s has more than {MOST_PARTS} blocks of control.longest = {longest:g} s. Raise it, or "
+            "take shorter steps."
+        )
 
 
 def _after(case: Case, state: ContactState, step: float, change: float) -> ContactState:
@@ -88,8 +103,10 @@ def _longest_step(case: Case, state: ContactState, left: float) -> tuple[float, 
     budget = case.scene.control.change - state.change
     rest = max(state.hold - state.held, NO_TIME)
     step = min(left, rest, cool_time(case, with_heat(case, state), left))
-    samples = _thinned(case.scene, state)
+    samples, tries = _thinned(case.scene, state), 0
     while True:  # the tribofilm's growth slows down: this ends within few rounds
+        check_tries(case, tries)
+        tries += 1
         after = _evolved(case, state, samples, step)
         pairs = zip(case.sides, samples, after, strict=True)
         change = max(geometry_change(*pair, wears=side.moves) for side, *pair in pairs)

@@ -80,11 +80,11 @@ def _strip_conductance(
 
 
 def _conductivity(body: int) -> Any:
-    return parameter("W/(m K)", f"thermal conductivity of body {body}", above=0.0, most=1e4)
+    return parameter("W/(m K)", f"thermal conductivity of body {body}", least=1e-3, most=1e4)
 
 
 def _diffusivity(body: int) -> Any:
-    return parameter("m2/s", f"thermal diffusivity of body {body}", above=0.0, most=1.0, quantity="ThermalDiffusivity")
+    return parameter("m2/s", f"thermal diffusivity of body {body}", least=1e-9, most=1.0, quantity="ThermalDiffusivity")
 
 
 def _inlet_shear() -> Any:

@@ -215,7 +215,7 @@ class FittedSharing:
         "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.564
     )
     film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.899)
-    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.37)
+    film_exponent: float = parameter("", "n", least=0.1, most=20.0, default=1.37)
     oil_pressure_excess: float = parameter(
         "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=1.02
     )
@@ -423,7 +423,7 @@ class LineSharing(FittedSharing):
         "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.391
     )
     film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.919)
-    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.4)
+    film_exponent: float = parameter("", "n", least=0.1, most=20.0, default=1.4)
     oil_pressure_excess: float = parameter(
         "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=3.45
     )

@@ -118,7 +118,7 @@ class Eyring(_Limited):
     thins: ClassVar[bool] = True
 
     eyring_stress: float = parameter(
-        "Pa", "shear stress at which the fluid begins to thin", above=0.0, most=1e12, quantity="Stress"
+        "Pa", "shear stress at which the fluid begins to thin", least=1.0, most=1e12, quantity="Stress"
     )
     limiting_coefficient: float = _limiting_coefficient()
 
@@ -170,7 +170,7 @@ class Carreau(_Limited):
     thins: ClassVar[bool] = True
 
     critical_stress: float = parameter(
-        "Pa", "G, Newtonian stress at which the fluid begins to thin", above=0.0, most=1e12, quantity="Stress"
+        "Pa", "G, Newtonian stress at which the fluid begins to thin", least=1.0, most=1e12, quantity="Stress"
     )
     exponent: float = parameter("", "n, power of the shear rate in a thin fluid", above=0.0, most=1.0)
     limiting_coefficient: float = _limiting_coefficient()

@@ -25,6 +25,10 @@ _STIFFEST_DOUBLE_LOG = 2.3  # log10 log10 of e^459 mm2/s, for the same reason
 _ASSUMED_DENSITY = 870.0  # kg/m3, of oils whose law has none
 
 
+# exponents beyond which powers of pressures and temperatures are no numbers any more; oils have 0.7 and 1.5
+_LARGEST_Z, _LARGEST_S0 = 30.0, 100.0
+
+
 @dataclass(frozen=True)
 class Roelands:
     """Roelands' law of pressure and temperature.
@@ -34,7 +38,6 @@ class Roelands:
     """
 
     name: ClassVar[str] = "roelands"
-    error: ClassVar[str] = ""
     source: ClassVar[str] = (
         "Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of oils, TU Delft 1966"
     )
@@ -57,6 +60,19 @@ class Roelands:
     pressure_coefficient: float = parameter("Pa^-1", "d ln(eta)/dp at p = 0", least=0.0, most=1e-7)
     temperature_coefficient: float = parameter("K^-1", "-d ln(eta)/dT at p = 0", least=0.0, most=0.2)
 
+    @property
+    def error(self) -> str:
+        """A sentence if the exponents are too large for numbers, as those of oils next to 6.3e-5 Pa s are."""
+        _, z, s0 = self._exponents
+        if z <= _LARGEST_Z and s0 <= _LARGEST_S0:
+            return ""
+        return (
+            f"lubricant.viscosity.viscosity = {self.viscosity:g} Pa s with pressure_coefficient = "
+            f"{self.pressure_coefficient:g} Pa^-1 and temperature_coefficient = {self.temperature_coefficient:g} K^-1 "
+            f"gives Roelands' exponents z = {z:.3g} and S = {s0:.3g}; at most {_LARGEST_Z:g} and {_LARGEST_S0:g} are "
+            "allowed. Raise the viscosity, or lower the coefficients."
+        )
+
     def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
         """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         scale, z, s0 = self._constants
@@ -66,10 +82,16 @@ class Roelands:
     @cached_property
     def _constants(self) -> tuple[float, float, float]:
         """ln(eta0 / eta_inf) p0^-z (T0 - 138)^S0, z and S0."""
+        log_range, z, s0 = self._exponents
+        return log_range * _P0**-z * (self.reference_temperature - 138.0) ** s0, z, s0
+
+    @property
+    def _exponents(self) -> tuple[float, float, float]:
+        """ln(eta0 / eta_inf), z and S0."""
         log_range, warmth = math.log(self.viscosity) - _LN_ETA_INF, self.reference_temperature - 138.0
         z = self.pressure_coefficient * _P0 / log_range
         s0 = self.temperature_coefficient * warmth / log_range
-        return log_range * _P0**-z * warmth**s0, z, s0
+        return log_range, z, s0
 
 
 @dataclass(frozen=True)
@@ -89,7 +111,7 @@ class Barus:
         },
     )
 
-    viscosity: float = parameter("Pa s", "viscosity at p = 0 and the reference temperature", above=0.0, most=1e3)
+    viscosity: float = parameter("Pa s", "viscosity at p = 0 and the reference temperature", least=1e-9, most=1e3)
     reference_temperature: float = parameter("K", "temperature of that viscosity", least=200.0, most=600.0)
     pressure_coefficient: float = parameter("Pa^-1", "d ln(eta)/dp", least=0.0, most=1e-7)
     temperature_coefficient: float = parameter("K^-1", "-d ln(eta)/dT", least=0.0, most=0.2)
@@ -129,7 +151,7 @@ class Modulus:
         },
     )
 
-    vogel_viscosity: float = parameter("Pa s", "K, viscosity of the hot oil", above=0.0, most=1.0)
+    vogel_viscosity: float = parameter("Pa s", "K, viscosity of the hot oil", least=1e-12, most=1.0)
     vogel_slope: float = parameter(
         "K", "C, fall of ln(viscosity) by 1 / (D + T)", least=0.0, most=1e4, quantity="TemperatureDifference"
     )

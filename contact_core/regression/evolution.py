@@ -15,6 +15,7 @@ from ..errors import ConvergenceError, OperatingPointError
 from ..scene import Case, Scene, Side
 from ..state import Classes, ContactState, Mean, Outputs, changed
 from ..state.bulk_temperature import NO_TIME, cool_time, temperatures_after
+from ..state.parts import check_parts, check_tries
 from ..surfaces.damage_classes import classes_of
 from ..surfaces.track_means import means_of
 from .contact import MeanContact, evaluate
@@ -43,17 +44,17 @@ def advance(
     scene = case.scene
     _check_pressure(case)
     if not scene.heat.bulk.stores_heat:
-        return _stepped(case, state, dt, contact_of)
+        return _stepped(case, state, dt, contact_of, 0)[:2]
     if dt == 0.0:
-        return _stepped(case.warmed(state.temperatures), state, dt, contact_of)
-    outputs, left = state.outputs, dt
+        return _stepped(case.warmed(state.temperatures), state, dt, contact_of, 0)[:2]
+    outputs, left, parts = state.outputs, dt, 0
     before = outputs.wear_volume_1, outputs.wear_volume_2
     while left > 0.0:
         now, step = case.warmed(state.temperatures), left
-        after, outputs = _stepped(now, state, step, contact_of)
+        after, outputs, parts = _stepped(now, state, step, contact_of, parts)
         while step > (longest := min(outputs.suggested_step, cool_time(now, after.outputs, step))) > NO_TIME:
             step = longest
-            after, outputs = _stepped(now, state, step, contact_of)
+            after, outputs, parts = _stepped(now, state, step, contact_of, parts)
         warm = temperatures_after(now, after.outputs, step)
         state, left = changed(after, temperatures=warm), left - step
     if dt >= _SHORT:
@@ -77,8 +78,13 @@ def _check_pressure(case: Case) -> None:
         )
 
 
-def _stepped(case: Case, state: ContactState, dt: float, contact_of: ContactOf) -> tuple[ContactState, Outputs]:
-    """Return the state and outputs after `dt` [s] at held bulk temperatures."""
+def _stepped(
+    case: Case, state: ContactState, dt: float, contact_of: ContactOf, parts: int
+) -> tuple[ContactState, Outputs, int]:
+    """Return the state and outputs after `dt` [s] at held bulk temperatures, and the parts of the caller's step so far.
+
+    `parts` are those before.
+    """
     before = state.means or means_of(case.scene, state)
     means, films, left = before, tribofilms_of(before), dt
     classes = classes_at(case.scene, state)
@@ -86,6 +92,8 @@ def _stepped(case: Case, state: ContactState, dt: float, contact_of: ContactOf) 
     harm = None if classes is None else harm_by(case, contact)
     step, speed = 0.0, 0.0  # of the last part [s]; at which the surfaces change [m/s]
     while left > 0.0:
+        check_parts(case, parts)
+        parts += 1
         start, newer = means, False
         step, means, films, speed = _substep(case, contact, start, left)
         left -= step
@@ -116,7 +124,8 @@ def _stepped(case: Case, state: ContactState, dt: float, contact_of: ContactOf) 
     if case.scene.stress.samples:
         below = outputs_below(case, state.outputs, harm or harm_by(case, contact), classes, means)
     outputs = outputs_of(case, state.outputs, contact, means, films, rates, speed, below)
-    return changed(state, time=state.time + dt, means=means, classes=classes, outputs=outputs, solved_for=None), outputs
+    state = changed(state, time=state.time + dt, means=means, classes=classes, outputs=outputs, solved_for=None)
+    return state, outputs, parts
 
 
 def classes_at(scene: Scene, state: ContactState) -> Classes | None:
@@ -131,8 +140,10 @@ def _substep(case: Case, contact: MeanContact, means: Means, left: float) -> tup
 
     The speed [m/s] is the change over the time.
     """
-    step, budget = left, case.scene.control.change
+    step, budget, tries = left, case.scene.control.change, 0
     while True:
+        check_tries(case, tries)
+        tries += 1
         after = _evolved(case, contact, means, step)
         change = max(_distance(means[0], after[0]), _distance(means[1], after[1]))
         if change <= 1.01 * budget:

@@ -62,7 +62,7 @@ class Lubricant:
     viscosity: Viscosity
     density: Density
     rheology: Rheology
-    conductivity: float = parameter("W/(m K)", "thermal conductivity of the oil", above=0.0, most=10.0, default=0.14)
+    conductivity: float = parameter("W/(m K)", "thermal conductivity of the oil", least=1e-3, most=10.0, default=0.14)
     flow: str = parameter(
         "",
         "what Reynolds' equation sees: newtonian, the viscosity at the inlet's temperature; local, that of the local "
@@ -86,7 +86,7 @@ class Control:
     """Division of the evolution over time into blocks, in each of which the contact is solved at a few instants."""
 
     change: float = parameter(
-        "m", "largest change of film or wear in a block, as rms over the track", above=0.0, most=1e-6
+        "m", "largest change of film or wear in a block, as rms over the track", least=1e-11, most=1e-6
     )
     dry_above: float = parameter(
         "", "contact_load_ratio above which dry pressures drive the blocks", least=0.0, most=2.0

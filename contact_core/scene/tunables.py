@@ -44,9 +44,21 @@ def tunables(scene: Scene) -> dict[str, tuple[float | int, "Field[Any]"]]:
 
 
 def with_values(scene: Scene, values: Mapping[str, float | int]) -> Scene:
-    """Return the scene with some of its `tunables` changed (SI), checked like a new one."""
-    known = list(tunables(scene))
+    """Return the scene with some of its `tunables` changed (SI), checked like a new one.
+
+    Raises SceneError that names what was changed: a sentence may speak of what follows from it.
+    """
+    known = tunables(scene)
     for name in values:
         if name not in known:
-            raise SceneError(f"'{name}' is not a number that can be changed in a scene.{did_you_mean(name, known)}")
-    return checked(with_numbers(scene, values))
+            raise SceneError(
+                f"'{name}' is not a number that can be changed in a scene.{did_you_mean(name, list(known))}"
+            )
+    try:
+        return checked(with_numbers(scene, values))
+    except SceneError as error:
+        changed = [f"{name} = {value:g}" for name, value in values.items() if value != known[name][0]]
+        unnamed = [each for each in changed if each.split(" ")[0] not in str(error)]
+        if not unnamed:
+            raise
+        raise SceneError(f"{error} The scene was changed by {', '.join(unnamed)}.") from None

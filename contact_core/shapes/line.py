@@ -163,7 +163,7 @@ class LineGeometry(Bodies):
     bounded_across: ClassVar[bool] = False
     lumped: ClassVar[bool] = False
 
-    face_width: float = parameter("m", "length of the line that carries the load", above=0.0, most=10.0)
+    face_width: float = parameter("m", "length of the line that carries the load", least=1e-9, most=10.0)
 
     def shape(self, radius_x: float | None = None, radius_y: float | None = None) -> Shape:
         """Return the shape with this radius [m], or with the geometry's own."""

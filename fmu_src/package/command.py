@@ -55,8 +55,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="PATH",
         nargs="?",
         const=sys.executable,
-        help="interpreter of an isolated FMU where TRIBOFMU_PYTHON is not set (without PATH: the one that builds it; "
-        "without --python: python3 on the host's PATH)",
+        help="interpreter of an isolated FMU where TRIBOFMU_PYTHON is not set (without PATH: the one that builds it, "
+        "which is the default in a virtual environment; elsewhere python3 on the host's PATH)",
+    )
+    parser.add_argument(
+        "--portable", action="store_true", help="record no interpreter, for equal files on all machines: see --python"
     )
     parser.add_argument(
         "--set",
@@ -81,7 +84,12 @@ def run(arguments: argparse.Namespace) -> int:
     """
     if arguments.python and arguments.flavour != "isolated":
         raise SceneError(f"--python is for isolated FMUs: {_NO_PYTHON[arguments.flavour]}. Leave it out.")
-    scene, assumed = Scene.read(arguments.scene, _overrides(arguments.overrides))
+    if arguments.python and arguments.portable:
+        raise SceneError("--portable records no interpreter, and --python names one. Leave one of them out.")
+    settings = _overrides(arguments.overrides)
+    scene, assumed = Scene.read(arguments.scene, settings)
+    if arguments.flavour == "native" and "film.model" not in settings:
+        scene = _without_solver(scene)
     doubts = scene.doubts()
     if doubts and not arguments.force:
         raise SceneError(f"{' '.join(doubts)} If this is meant, add --force.")
@@ -95,7 +103,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     print(f"Note: building '{out}'; the first time kernels compile, which takes minutes.", file=sys.stderr)
     try:
-        recorded = _recorded(arguments.python)
+        recorded = _recorded(_interpreter(arguments))
         print(build(scene, out, arguments.flavour, fmi=arguments.fmi, python=recorded, reference=True))
         _tell_missing(arguments)
     except OSError as error:
@@ -143,6 +151,26 @@ def _tell_missing(arguments: argparse.Namespace) -> None:
             "or compile its sources there (fmpy compile).",
             file=sys.stderr,
         )
+
+
+def _without_solver(scene: Scene) -> Scene:
+    """Return the scene at the level of a native FMU; say so, with its error, where that is another one."""
+    from ..native.level import stated_error, unsolved
+
+    taken = unsolved(scene)
+    if taken is not scene:
+        print(
+            f"Note: film.model = '{taken.film.name}' in place of '{scene.film.name}': a native FMU has no solver. Its "
+            f"stated errors: {stated_error(taken)}. --flavour isolated solves the contact.",
+            file=sys.stderr,
+        )
+    return taken
+
+
+def _interpreter(arguments: argparse.Namespace) -> str | None:
+    """Return the interpreter to record: the one asked for, else, for an isolated FMU, that of a virtual environment."""
+    own = arguments.flavour == "isolated" and not arguments.portable and sys.prefix != sys.base_prefix
+    return arguments.python or (sys.executable if own else None)
 
 
 def _recorded(python: str | None) -> str | None:

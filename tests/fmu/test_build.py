@@ -1,6 +1,8 @@
 """The command line of build_fmu.py."""
 
+import sys
 import zipfile
+from importlib import import_module
 from importlib.resources import files
 
 import pytest
@@ -67,3 +69,62 @@ def test_a_script_of_an_earlier_build_is_refused_with_a_way_out():
         from fmu_src import slave  # noqa: F401
     with pytest.raises(ImportError, match="cannot import name 'slaves'"):
         from fmu_src import slaves  # noqa: F401
+
+
+@pytest.fixture
+def asked(tmp_path, monkeypatch):
+    """What the command asks of `build`, which is not called: the scene, and the options."""
+
+    def of(*arguments):
+        found = []
+
+        def build(scene, out, *_, **options):
+            found.append((scene, options))
+            return out
+
+        monkeypatch.setattr(import_module("fmu_src.package.build"), "build", build)
+        assert main([*arguments, "--out", str(tmp_path / "x.fmu")]) == 0
+        return found[0]
+
+    return of
+
+
+@pytest.mark.parametrize(
+    ("prefix", "arguments", "recorded"),
+    [
+        ("/an/environment", [], sys.executable),
+        (sys.base_prefix, [], None),
+        ("/an/environment", ["--portable"], None),
+        ("/an/environment", ["--flavour", "embedded"], None),
+        ("/an/environment", ["--python", "no-such-python"], "no-such-python"),
+    ],
+)
+def test_a_virtual_environment_is_recorded(asked, monkeypatch, prefix, arguments, recorded):
+    monkeypatch.setattr(sys, "prefix", prefix)
+    assert asked("mtm_zddp", "--set", *CHANGES, *arguments)[1]["python"] == recorded
+
+
+def test_an_interpreter_is_not_named_and_left_out_at_once(capsys):
+    assert main(["mtm_zddp", "--portable", "--python"]) == 2
+    assert "--portable records no interpreter" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("scene", "settings", "level"),
+    [
+        ("mtm_zddp", [], "map"),
+        ("mtm_zddp", ["surface_2.rq=120 nm"], "regression"),
+        ("fzg_flank", [], "regression"),
+    ],
+)
+def test_a_native_fmu_takes_a_level_that_solves_nothing_and_says_so(asked, capsys, scene, settings, level):
+    taken = asked(scene, "--flavour", "native", *(["--set", *settings] if settings else []))[0]
+    assert taken.film.name == level
+    said = capsys.readouterr().err
+    assert f"film.model = '{level}' in place of 'deterministic'" in said
+    assert "friction_coefficient +- " in said
+
+
+def test_a_native_fmu_of_a_level_that_is_asked_for_is_left_alone(asked, capsys):
+    assert asked("mtm_zddp", "--flavour", "native", "--set", "film.model=regression")[0].film.name == "regression"
+    assert "in place of" not in capsys.readouterr().err

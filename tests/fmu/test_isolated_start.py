@@ -80,6 +80,18 @@ def test_the_python_recorded_at_build_is_taken_where_the_variable_is_not_set(nat
         assert started(host, folder).step(1.0) == OK
 
 
+def test_a_recorded_python_of_another_machine_is_not_the_last_word(native_program, isolated_folder, tmp_path):
+    folder = Path(shutil.copytree(isolated_folder, tmp_path / "fmu"))
+    (folder / "resources" / "python.txt").write_text("/of/another/machine/python")
+    environment = plain_environment() | {"PATH": "/nowhere"}
+    del environment["TRIBOFMU_PYTHON"]
+    with NativeHost(native_program, environment) as host:
+        said = host.load(folder).instance().log[0][3]
+        assert "The FMU names the Python '/of/another/machine/python', which cannot be run" in said
+    with NativeHost(native_program, environment | {"PATH": f"/nowhere:{Path(sys.executable).parent}"}) as host:
+        assert started(host, folder).step(1.0) == OK
+
+
 def test_python3_on_the_path_is_the_last_resort(native_program, isolated_folder, tmp_path):
     (tmp_path / "python3").symlink_to(sys.executable)
     environment = plain_environment() | {"PATH": "/nowhere"}

@@ -7,8 +7,8 @@
 
 #define PYTHON_HINT "Set TRIBOFMU_PYTHON to the Python of an environment in which tribofmu is installed."
 
-/* Path of the interpreter: TRIBOFMU_PYTHON, else what python.txt in the resources says, else python3 (on Windows
-   python.exe, then python3.exe) on PATH. To be freed by the caller; NULL and a reason if there is none. */
+/* Path of the interpreter: TRIBOFMU_PYTHON, else what python.txt in the resources says, if that is on this machine, else
+   python3 (on Windows python.exe, then python3.exe) on PATH. To be freed by the caller; NULL and a reason if there is none. */
 char *interpreter(const char *resources, Reason *why);
 
 /* The environment without variables for the host's own Python and libraries; one block, to be freed. */

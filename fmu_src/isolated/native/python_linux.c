@@ -82,9 +82,10 @@ char *interpreter(const char *resources, Reason *why) {
     char path[4096];
     const char *variable = getenv("TRIBOFMU_PYTHON");
     if (variable && *variable) return chosen(variable, "TRIBOFMU_PYTHON", why);
-    if (recorded(resources, path, sizeof path)) return chosen(path, "The FMU", why);
-    char *found = on_path("python3");
-    if (!found) snprintf(why->text, sizeof why->text, "There is no python3 on PATH. %s", PYTHON_HINT);
+    int named = recorded(resources, path, sizeof path);
+    char *found = named ? chosen(path, "The FMU", why) : NULL;
+    if (!found) found = on_path("python3"); /* the recorded one may be that of another machine */
+    if (!found && !named) snprintf(why->text, sizeof why->text, "There is no python3 on PATH. %s", PYTHON_HINT);
     return found;
 }
 

@@ -101,14 +101,15 @@ static int recorded(const char *resources, char *path, int room) {
 }
 
 char *interpreter(const char *resources, Reason *why) {
-    char path[4096], *found;
+    char path[4096], *found = NULL;
     wchar_t *asked = variable(L"TRIBOFMU_PYTHON");
     char *wish = asked ? narrow(asked) : NULL;
+    int named = !wish && recorded(resources, path, sizeof path);
     if (wish)
         found = chosen(wish, "TRIBOFMU_PYTHON", why);
-    else if (recorded(resources, path, sizeof path))
+    else if (named)
         found = chosen(path, "The FMU", why);
-    else if (!(found = program("python.exe")) && !(found = program("python3.exe")))
+    if (!found && !wish && !(found = program("python.exe")) && !(found = program("python3.exe")) && !named)
         snprintf(why->text, sizeof why->text, "There is no python.exe on PATH. %s", PYTHON_HINT);
     free(wish);
     free(asked);

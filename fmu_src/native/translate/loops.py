@@ -4,12 +4,14 @@ import ast
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from contact_core.state.parts import MOST_PARTS
+
 from . import code, grids
 from .library import Span
 from .units import Names, Poison, Unit, common_kind, matched, unified
 from .values import Num, leaves, literal, replaced, signature
 
-MOST_ROUNDS = 10_000  # of a loop whose end is known at run time only: the time of a step is bounded
+MOST_ROUNDS = MOST_PARTS + 1  # of a loop whose end is known at run time only; steps of contacts are refused before
 _TOO_LONG = f"The step needs more than {MOST_ROUNDS} parts: the surfaces change too much in it. Take shorter steps."
 
 

@@ -1,0 +1,31 @@
+"""The level of a native FMU: that of a shipped map of its scene where there is one, else the regression level."""
+
+from contextlib import suppress
+
+from contact_core import advance, initial_state
+from contact_core.errors import ContactError
+from contact_core.film import Mapped, Regression
+from contact_core.mapped.map import map_of
+from contact_core.quantities import UNSOLVED
+from contact_core.scene import Scene
+
+
+def unsolved(scene: Scene) -> Scene:
+    """Return the scene at a level that solves no contact; its own, if that is one."""
+    if scene.film.name in UNSOLVED:
+        return scene
+    with suppress(ContactError):
+        mapped = scene.at_level(Mapped.name)
+        map_of(mapped)
+        return mapped
+    return scene.at_level(Regression.name)
+
+
+def stated_error(scene: Scene) -> str:
+    """Return the errors that a level states for the operating point of its scene, in words."""
+    _, outputs = advance(scene, scene.operation.point, initial_state(scene), 0.0)
+    friction, film = (f"{100.0 * error:.2g} %" for error in (outputs.error_friction, outputs.error_film))
+    return (
+        f"friction_coefficient +- {friction}, h_c +- {film}, contact_load_ratio +- "
+        f"{outputs.error_load_ratio:.2g} (95 %, at the operating point of the scene)"
+    )
