@@ -7,6 +7,7 @@
     solved             deterministic solutions that correct the regression level
     below              tractions, load cycles and damage below the surfaces
     classes            damage by classes of points, at the regression level
+    parts              the number of parts of one step, which is bounded
     storage            records of numbers and arrays as bytes and back
     bulk_temperature   temperatures of the bodies from the heat of the contact, for both levels
 

@@ -6,6 +6,7 @@
     translate  from Python to C99, with everything known of a scene put in
     tables     tables.h: numbers of the elementary functions
     model      writes model.c, the tables of a scene's variables
+    level      the level of a scene that has none without a solver
     built_in   variables as hosts see them: parameters with one value
     names      names of variables in C
     build      the sources that every FMU shares, and libraries by zig or gcc

@@ -9,7 +9,7 @@ from fmpy.model_description import ModelDescription, ModelVariable
 from lxml import etree
 
 from .archive import DESCRIPTION, opened
-from .errors import CouplingError
+from .errors import CouplingError, FmuError
 
 _TRUE = ("true", "1")
 
@@ -21,8 +21,11 @@ class Model:
         self.name, self.path = name, Path(path)
         if not self.path.exists():
             raise CouplingError(f"The FMU '{path}' of '{name}' does not exist. Name an .fmu file.")
-        with opened(self.path) as archive:
-            root = archive.document(DESCRIPTION)
+        try:
+            with opened(self.path) as archive:
+                root = archive.document(DESCRIPTION)
+        except FmuError as error:
+            raise FmuError(f"The FMU '{name}' cannot be read: {error}") from None
         self.description = _description(name, self.path)
         self.variables: dict[str, ModelVariable] = {v.name: v for v in self.description.modelVariables}
         self._complete(root)

@@ -342,7 +342,7 @@ def test_a_missing_file_is_refused(tmp_path):
 
 def test_a_file_that_is_no_fmu_is_refused(tmp_path):
     (tmp_path / "text.fmu").write_text("no archive")
-    with pytest.raises(CouplingError, match=r"text\.fmu' of 'a' cannot be read"):
+    with pytest.raises(CouplingError, match=r"The FMU 'a' cannot be read: '.*text\.fmu' is not a zip archive"):
         System({"a": tmp_path / "text.fmu"})
 
 

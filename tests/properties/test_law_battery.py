@@ -96,6 +96,7 @@ PLAUSIBLE = {
     "cyclic_hardening": (0.02, 0.5),
     "failure_work": (1e6, 1e11),
     "work_exponent": (0.5, 3.0),
+    "film_exponent": (0.1, 20.0),
 }
 
 
