@@ -26,7 +26,7 @@ _STILL = 1e-14  # N: a force on the ring below is none; where nothing holds it, 
 BALANCED = 1e-9  # of the largest force, at least of 1 N: more left over is no equilibrium
 _UNTOUCHED = 1e-2  # N: less on all inner contacts together hardly drives the cage
 _SHARP = 4.0
-_ROUNDING = 1e-10  # of the springs' lengths: a smaller stretch is what the search for a ball's rest leaves of it
+_ROUNDING = 1e-9  # of the springs' lengths: a smaller stretch is what the search for a ball's rest leaves of it
 _GRAZING = 0.1  # least cosine between a ball's axis and the plane of its contact, where no groove reaches any more
 
 
