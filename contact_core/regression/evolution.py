@@ -27,6 +27,7 @@ from .surfaces import Means, Tribofilms, added_friction, composite_roughness, me
 _SAME = 1e-4  # a contact evaluated before the surfaces changed by less, relative, is the contact after it
 _AGREED = 0.05  # of control.change: contacts before and after a step may differ by so much in the surfaces they make
 _TRIAL = 1.0  # s: step from which the speed of the surfaces' change is taken, where there is none that is not short
+_FURTHER = 2.0  # times the last step that was right: one that is tried and too long has taken its parts for nothing
 _SHORT = 1e-6  # s: over a shorter step, differences of the surfaces are lost in rounding
 
 
@@ -47,16 +48,17 @@ def advance(
         return _stepped(case, state, dt, contact_of, 0)[:2]
     if dt == 0.0:
         return _stepped(case.warmed(state.temperatures), state, dt, contact_of, 0)[:2]
-    outputs, left, parts = state.outputs, dt, 0
+    outputs, left, parts, trial = state.outputs, dt, 0, dt
     before = outputs.wear_volume_1, outputs.wear_volume_2
     while left > 0.0:
-        now, step = case.warmed(state.temperatures), left
+        now, step = case.warmed(state.temperatures), min(left, trial)
         after, outputs, parts = _stepped(now, state, step, contact_of, parts)
         while step > (longest := min(outputs.suggested_step, cool_time(now, after.outputs, step))) > NO_TIME:
             step = longest
             after, outputs, parts = _stepped(now, state, step, contact_of, parts)
         warm = temperatures_after(now, after.outputs, step)
         state, left = changed(after, temperatures=warm), left - step
+        trial = _FURTHER * max(step, outputs.suggested_step)
     if dt >= _SHORT:
         volumes = outputs.wear_volume_1, outputs.wear_volume_2
         rates = [(out - old) / dt for out, old in zip(volumes, before, strict=True)]

@@ -87,7 +87,7 @@ def _fatigued(
 
 def _first(damage: Array, gained: Array) -> float:
     """Return the share of a step after which the first class fails, a little later than that."""
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # next to no damage: never
         left = np.where(gained > 0.0, (1.0 - damage) / gained, math.inf)
     return float(left.min()) * (1.0 + 1e-12)
 

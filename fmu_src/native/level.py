@@ -21,7 +21,15 @@ def unsolved(scene: Scene) -> Scene:
     return scene.at_level(Regression.name)
 
 
-def stated_error(scene: Scene) -> str:
+def other_level(scene: Scene, taken: Scene) -> str:
+    """Return a sentence on the level `taken` in place of the scene's own, with its stated errors."""
+    return (
+        f"film.model = '{taken.film.name}' in place of '{scene.film.name}': a native FMU has no solver. Its stated "
+        f"errors: {_stated_error(taken)}. --flavour isolated solves the contact."
+    )
+
+
+def _stated_error(scene: Scene) -> str:
     """Return the errors that a level states for the operating point of its scene, in words."""
     _, outputs = advance(scene, scene.operation.point, initial_state(scene), 0.0)
     friction, film = (f"{100.0 * error:.2g} %" for error in (outputs.error_friction, outputs.error_film))

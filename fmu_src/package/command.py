@@ -155,15 +155,11 @@ def _tell_missing(arguments: argparse.Namespace) -> None:
 
 def _without_solver(scene: Scene) -> Scene:
     """Return the scene at the level of a native FMU; say so, with its error, where that is another one."""
-    from ..native.level import stated_error, unsolved
+    from ..native.level import other_level, unsolved
 
     taken = unsolved(scene)
     if taken is not scene:
-        print(
-            f"Note: film.model = '{taken.film.name}' in place of '{scene.film.name}': a native FMU has no solver. Its "
-            f"stated errors: {stated_error(taken)}. --flavour isolated solves the contact.",
-            file=sys.stderr,
-        )
+        print(f"Note: {other_level(scene, taken)}", file=sys.stderr)
     return taken
 
 

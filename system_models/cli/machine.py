@@ -12,7 +12,7 @@ from .progress import counted, shown
 from .scenes import ask_back, tell_assumed, tell_unreached
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     import xarray as xr
 
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from ..machines.reading import Machine
     from ..master import System
 
+
+_LEVEL, _DEEP = "contact.film.model", "deterministic"  # keys that set the levels of contacts
 
 # keys of a machine that options stand for
 _STAND_FOR = {
@@ -38,8 +40,12 @@ def run(arguments: argparse.Namespace) -> int:
     note(f"Loading '{arguments.scene}'; its report comes at the end.")
     from ..machines import plausibility, reading, tables
 
-    machine = reading.read(arguments.scene, _changes(arguments), Path(arguments.duty) if arguments.duty else None)
+    changes, duty = _changes(arguments), Path(arguments.duty) if arguments.duty else None
+    machine = reading.read(arguments.scene, changes, duty)
     assembly = reading.assemble(machine)
+    if arguments.flavour == "native" and (level := _without_solver(assembly, changes)):
+        machine = reading.read(arguments.scene, changes | level, duty)
+        assembly = reading.assemble(machine)
     ask_back(plausibility.doubts(machine, assembly), arguments.force)
     assumed = tables.scene_and_assumed(machine.table)[1]
     tell_assumed(assumed)
@@ -64,6 +70,20 @@ def _changes(arguments: argparse.Namespace) -> dict[str, str]:
     if arguments.grid:
         changes["contact.film.points"] = arguments.grid
     return changes
+
+
+def _without_solver(assembly: "Assembly", changes: "Mapping[str, str]") -> dict[str, str]:
+    """Return the change to a level that native FMUs of the contacts can have; say so. None where one is set."""
+    from fmu_src.native.level import other_level, unsolved
+
+    if {_LEVEL, _DEEP} & changes.keys():
+        return {}
+    for name, contact in assembly.contacts.items():
+        scene = contact.own_scene
+        if (taken := unsolved(scene)) is not scene:
+            note(f"{name}: {other_level(scene, taken)}")
+            return {_LEVEL: taken.film.name, _DEEP: "[]"}
+    return {}
 
 
 def _export(assembly: "Assembly", path: str, flavour: "Flavour") -> int:

@@ -47,8 +47,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--flavour",
         choices=FLAVOURS,
-        help="FMUs of a machine: 'native' ones are C, built when it starts, and fast, for contacts at the regression "
-        "level; default: 'embedded', in an exported file 'isolated'",
+        help="FMUs of a machine: 'native' ones are C, built when it starts, and fast, of contacts at a level without "
+        "a solver; default: 'embedded', in an exported file 'isolated'",
     )
     parser.add_argument(
         "--processes", metavar="N", type=int, help="processes for the members of an ensemble of surfaces (default: 1)"

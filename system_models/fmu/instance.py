@@ -49,7 +49,7 @@ class Instance(ABC):
         self.event, self.events = False, 0  # handled in the last step or after it, and how many: from FMI 3 on
         self.next_event: float | None = None  # its time [s], where the FMU announces it
         self.interpolates = False  # whether it takes derivatives of its inputs, or asks for them within a step
-        messages.said.discard(self.name)
+        messages.said.pop(self.name, None)
         self._refuse_platform(folder)
         self._instantiate(folder)
 
@@ -84,7 +84,7 @@ class Instance(ABC):
 
     def failure(self, what: str, error: Exception) -> CouplingError:
         """Return the error to raise where the FMU has failed to do something."""
-        why = "Its messages say why." if self.name in messages.said else "It gave no message; ask who made it."
+        why = messages.cause(self.name)
         return CouplingError(f"The FMU '{self.name}' failed {what}: {str(error).rstrip('.')}. {why}")
 
     def _refuse_platform(self, folder: str) -> None:

@@ -18,14 +18,22 @@ log = logging.getLogger(__name__)
 LEVELS = (logging.INFO, logging.WARNING, logging.WARNING, logging.ERROR, logging.CRITICAL)  # by FMI status
 
 
-said: set[str] = set()  # names of FMUs that have given a message
+said: dict[str, str] = {}  # last message of each FMU that tells of something wrong, by its name
 
 
 def pass_on(name: str, status: int, message: bytes | None) -> None:
     """Log the message of an FMU; a record has its FMI status and its text as attributes."""
-    said.add(name)
     text = printable((message or b"").decode("utf-8", "replace"), kept="\n\t")
+    if LEVELS[min(status, len(LEVELS) - 1)] > logging.INFO and text.strip():
+        said[name] = text
     log.log(LEVELS[min(status, len(LEVELS) - 1)], "%s: %s", name, text, extra={"status": status, "text": text})
+
+
+def cause(name: str, says: str = "It says") -> str:
+    """Return what an FMU has said last of something wrong, its first line, as a sentence; or that it gave none."""
+    if name not in said:
+        return "It gave no message; ask who made it."
+    return f"{says}: {said[name].strip().splitlines()[0].rstrip('.')}."
 
 
 def callbacks() -> fmi2CallbackFunctions:

@@ -117,5 +117,5 @@ def _invalid(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     first = float(dataset["time"].values[np.flatnonzero(~_valid(assembly, dataset))[0]])
     return [
         f"WARNING: {count} rows are INVALID, the first at {first:g} s: {', '.join(names)} could not use the inputs and "
-        "stood still. The log has the reason."
+        f"stood still. {dataset.attrs.get('invalid_why', '')}".strip()
     ]

@@ -18,6 +18,7 @@ import numpy as np
 import contact_core
 from contact_core.errors import StateError
 
+from ..fmu import messages
 from ..fmu.errors import CouplingError
 from ..fmu.instance import Instance
 from ..store.checkpoint import Checkpoint, alone
@@ -69,7 +70,7 @@ def check_taken(instances: Mapping[str, Instance], states: Mapping[str, bytes], 
     for name, instance in instances.items():
         if instance.serialised() != states[name]:
             raise StateError(
-                f"The FMU '{name}' does not take the state of the checkpoint at t = {time:g} s; its messages say why. "
+                f"The FMU '{name}' does not take the state of the checkpoint at t = {time:g} s. {messages.cause(name)} "
                 "Use the FMU that the checkpoint was made with, or start from the beginning."
             )
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..fmu import messages
 from ..fmu.errors import CouplingError
 from ..fmu.instance import Instance
 from ..store.checkpoint import Checkpoint
@@ -60,7 +61,8 @@ def simulate(
     Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", statistics of each step;
     "bond.*", the difference between the powers that the two FMUs of a bond compute. Its attributes count steps,
     iterations, unconverged, below_min_step, events and stopped_early among the steps that stand, and those rejected;
-    invalid counts the rows in which one of the FMUs invalid_by, of tribofmu, says that it could not use its inputs;
+    invalid counts the rows in which one of the FMUs invalid_by, of tribofmu, says that it could not use its inputs,
+    invalid_why what they have said last of something wrong;
     ended_by is the FMU that has asked for the end, receives_means those that take no derivatives of inputs, and `cost`
     gives, as JSON, all steps of each FMU and its seconds.
 
@@ -236,4 +238,5 @@ def _verdicts(system: System, dataset: xr.Dataset) -> dict[str, Any]:
             dataset["time"].values[rows][0],
             by,
         )
-    return {"invalid": count, "invalid_by": by}
+    why = " ".join(messages.cause(name, f"{name} says") for name in by.split(", ") if name in messages.said)
+    return {"invalid": count, "invalid_by": by, "invalid_why": why}

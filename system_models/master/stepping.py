@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..fmu import messages
 from ..fmu.errors import CouplingError
 from ..numerics.richardson import Halves
 from .coupled import Coupled, Point, StoppedEarly
@@ -129,7 +130,7 @@ class Stepper:
         if shorter < self.min_step:
             raise CouplingError(
                 f"The FMU '{stop.name}' refuses to step on from {start.time:g} s, also by {size:g} s. "
-                "Its messages may say why; a smaller min_step lets it try smaller steps."
+                f"{messages.cause(stop.name)} A smaller min_step lets it try smaller steps."
             )
         return start.time + shorter
 

@@ -79,7 +79,8 @@ def validity(dataset: xr.Dataset) -> list[str]:
         return []
     line = (
         f"WARNING: {counts['invalid']} of {dataset.sizes['time']} rows are INVALID: {counts['invalid_by']} could not "
-        "use the inputs and kept the outputs from before. Column `valid` says in which rows, messages of the FMUs why."
+        "use the inputs and kept the outputs from before. Column `valid` says in which rows. "
+        f"{counts.get('invalid_why', '')}".strip()
     )
     return [printable(line)]
 

@@ -51,6 +51,7 @@ def test_a_contact_that_cannot_use_its_inputs_is_told_whatever_is_recorded(
     assert dataset["contact.valid"].values.tolist() == [not code] * 3
     assert dataset.attrs["invalid"] == 3 * code
     assert ("WARNING: 3 of 3 rows are INVALID: contact could not use the inputs" in out) == bool(code)
+    assert ("contact says: " in out and "5 K" in out) == bool(code)
 
 
 def test_an_output_of_another_fmu_that_is_called_valid_is_an_output_as_any_other(built: Built, tmp_path: Path) -> None:

@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 from fmpy.ssp.simulation import simulate_ssp
 
-from contact_core.errors import SceneError
+from contact_core.errors import ContactError, SceneError
+from system_models.cli.main import main
 from system_models.machines import reading
+from system_models.machines.assembly import Assembly
 from system_models.machines.export import with_timetable
-from system_models.master import export_ssp, simulate
+from system_models.master import System, export_ssp, simulate
 
 pytestmark = [
     pytest.mark.systems,
@@ -49,6 +51,31 @@ def test_native_contacts_of_gears_have_the_radii_and_tracks_of_their_stations() 
         for i in (1, 2):
             track = f"track_length_{i}"
             assert getattr(own.geometry, track) == contact.parameters[f"geometry.{track}"]
+
+
+@pytest.mark.parametrize("export", [[], ["--ssp", "rig.ssp"]])
+@pytest.mark.parametrize("contact", ["film.model = 'deterministic'", "film.model = 'auto'", ""])
+def test_contacts_with_a_solver_take_a_level_that_native_fmus_can_have_and_say_so(
+    contact: str, export: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    rig = reading.shipped_files()["mtm_rig"]
+    shutil.copy(rig.with_name("mtm_rig.csv"), tmp_path)
+    listed = "" if contact else "deterministic = ['contact']\n"
+    Path("rig.toml").write_text(listed + rig.read_text("utf-8").replace('film.model = "regression"', contact), "utf-8")
+    levels: list[str] = []
+
+    def built(assembly: Assembly, *_: object, **__: object) -> System:
+        levels.extend(each.own_scene.film.name for each in assembly.contacts.values())
+        raise ContactError("enough")
+
+    monkeypatch.setattr(Assembly, "system", built)
+    command = ["run", "rig.toml", "--flavour", "native", *export]
+    assert main(command) == main([*command, "--set", "contact.film.model=auto", "deterministic=[]"]) == 2
+    assert levels == ["regression", "auto"]  # the second one is asked for, and refused by the build
+    said = capsys.readouterr().err
+    assert said.count("contact: film.model = 'regression' in place of") == 1
+    assert "friction_coefficient +- " in said
 
 
 @pytest.mark.long

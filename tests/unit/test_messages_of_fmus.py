@@ -4,7 +4,7 @@ import logging
 
 import pytest
 
-from system_models.fmu.messages import pass_on
+from system_models.fmu.messages import cause, pass_on, said
 
 
 @pytest.mark.parametrize(
@@ -24,3 +24,11 @@ def test_ok_warning_discard_error_and_fatal_have_their_levels(
 def test_a_message_may_be_empty(caplog: pytest.LogCaptureFixture) -> None:
     pass_on("contact", 3, None)
     assert caplog.records[0].getMessage() == "contact: "
+
+
+def test_the_cause_is_the_first_line_of_the_last_message_of_something_wrong() -> None:
+    said.clear()
+    assert cause("a") == "It gave no message; ask who made it."
+    for status, text in ((1, b"It is cold."), (3, b"It is stuck.\nat line 3"), (0, b"all is well"), (1, None)):
+        pass_on("a", status, text)
+    assert cause("a") == "It says: It is stuck."

@@ -19,12 +19,14 @@ import contact_core.kernels  # noqa: F401  # decides where compiled kernels are 
 
 _jit = njit(cache=True, nogil=True, error_model="numpy")
 
-_STEPS, _CUTS, _ROUNDS = 200, 60, 200
+_STEPS, _CUTS, _ROUNDS, _STAYS = 200, 60, 200, 2
 _EPS = 2.3e-16
 _NOTHING = 1e-100  # N: a force below is none, so that no square of one underflows where nothing holds a ball
+_STILL = 1e-14  # N: a force on the ring below is none; where nothing holds it, what is left over moves it by 1 pm
 BALANCED = 1e-9  # of the largest force, at least of 1 N: more left over is no equilibrium
 _UNTOUCHED = 1e-2  # N: less on all inner contacts together hardly drives the cage
 _SHARP = 4.0
+_ROUNDING = 1e-9  # of the springs' lengths: a smaller stretch is what the search for a ball's rest leaves of it
 _GRAZING = 0.1  # least cosine between a ball's axis and the plane of its contact, where no groove reaches any more
 
 
@@ -183,8 +185,8 @@ def seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring,
     size = springs[1] + springs[3]
     slope, curvature, trial = np.zeros(5), np.zeros((5, 5)), np.zeros(5)
     _at_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature)
-    norm, steps = np.abs(slope).max(), 0
-    while norm > _NOTHING and steps < _STEPS:
+    norm, steps, stays = np.abs(slope).max(), 0, 0
+    while norm > _STILL and steps < _STEPS:
         steps += 1
         for i in range(5):
             curvature[i, i] += norm / size
@@ -202,7 +204,8 @@ def seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring,
                 part = 0.0  # back: rounding decides which way is down
         ring[:] = trial
         before, norm = norm, np.abs(slope).max()
-        if part == 0.0 or (norm <= least and norm > 0.5 * before):
+        stays = stays + 1 if norm > 0.5 * before else 0
+        if part == 0.0 or (norm <= least and stays > _STAYS):  # also where the ring has play, and a force moves it far
             break
     return norm, steps
 
@@ -245,13 +248,17 @@ def motions(ring, balls, azimuths, centre, springs, holds, ratio, found):  # typ
     """Fill `found` [Z, 11]: inner and outer load, their angles, and the results of `rolling`.
 
     holds: lever of spin friction at 1 N [m] of the inner and the outer contact. A ball without load on the inner race
-    has there the angle of the outer one.
+    has there the angle of the outer one; a loose ball, whose place is any, has the angle of the line through both
+    grooves' centres.
     """
+    least = (_ROUNDING * (springs[1] + springs[3])) ** 1.5
     for j in range(balls.shape[0]):
         x, r = balls[j]
         cx, cr = groove_centre(centre, ring, azimuths[j, 0], azimuths[j, 1])
         inner, outer = pull(cx - x, cr - r, springs[2], springs[3])[0], pull(x, r, springs[0], springs[1])[0]
-        out = np.arctan2(x, r)
+        inner = inner if inner > springs[2] * least else 0.0
+        outer = outer if outer > springs[0] * least else 0.0
+        out = np.arctan2(x, r) if outer > 0.0 else np.arctan2(cx, cr)
         into = np.arctan2(cx - x, cr - r) if inner > 0.0 else out
         found[j, 0], found[j, 1], found[j, 2], found[j, 3] = inner, outer, into, out
         rolls = rolling(into, out, holds[0] * inner ** (4.0 / 3.0), holds[1] * outer ** (4.0 / 3.0), ratio)
