@@ -6,7 +6,7 @@ from dataclasses import Field, dataclass
 from typing import Any, Literal
 
 from contact_core.quantities import DIFFERENCE, INPUTS, LEVELS, OUTPUTS, Quantity, measured
-from contact_core.scene import Scene, tunables, units
+from contact_core.scene import OperatingPoint, Scene, tunables, units
 
 Kind = Literal["Real", "Integer", "Boolean", "String"]
 Causality = Literal["input", "parameter", "output", "independent"]
@@ -111,6 +111,11 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
         ),
         CLOCK,
     )
+
+
+def first_point(scene: Scene) -> OperatingPoint:
+    """Return the operating point of the start values of a scene's FMU."""
+    return OperatingPoint(**{v.name: float(v.start) for v in variables(scene) if v.causality == "input"})
 
 
 def fidelity_of(level: str) -> int:

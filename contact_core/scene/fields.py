@@ -138,6 +138,10 @@ class SceneFields:
         across = (self.rows - 1) * self.film.spacing / ROOM if self.geometry.bounded_across else math.inf
         return self.film.domain / ROOM, across
 
+    def has_room(self, hertz: Hertz) -> bool:
+        """Return True if the grid has room for Hertz's contact."""
+        return all(half <= room for half, room in zip((hertz.a, hertz.b), self.room, strict=True))
+
     @property
     def largest_load(self) -> float:
         """Largest load [N] that the scene's grid has to hold."""

@@ -1,6 +1,6 @@
 /* Derivatives of outputs by inputs at the present state and inputs. Those of friction_force by load, speeds and
    temperature are the contact's own, in closed form; `temperature` stands there for oil and bodies together. All others
-   are central differences of the outputs at a step of 0; at a bound of an input, one-sided ones. */
+   are central differences of the outputs at a step of 0; where a neighbour cannot be used, one-sided ones. */
 
 #include <math.h>
 
@@ -75,25 +75,29 @@ static const Derivative *own(const Variable *unknown, const Variable *known) {
 
 /* columns of the matrix of derivatives */
 
-static Status evaluate(const Instance *it, size_t place, double value, Trial *trial, contact_outputs *outputs) {
-    contact_message why;
+/* Return 1 and the outputs at another value of an input, or 0 and why there are none. */
+static int evaluated(const Instance *it, size_t place, double value, Trial *trial, contact_outputs *outputs,
+                     contact_message *why) {
     contact_inputs inputs = it->now.inputs;
     ((double *)&inputs)[place] = value;
     trial->state = it->now.solution.state;
     *outputs = it->now.solution.outputs;
-    why.text[0] = 0;
-    if (contact_step(&inputs, 0.0, &trial->state, outputs, &why) == 0 && outputs_finite(outputs)) return OK;
-    return refuse(it, DISCARD, "A directional derivative", why.text);
+    why->text[0] = 0;
+    return contact_step(&inputs, 0.0, &trial->state, outputs, why) == 0 && outputs_finite(outputs);
 }
 
 /* Derivatives of all outputs by one input, in trial->high. */
 static Status differences(const Instance *it, size_t place, Trial *trial) {
     const Input *known = input_at(place);
+    contact_message why;
     double value = ((const double *)&it->now.inputs)[place];
     double step = SHARE * fmax(fabs(value), known->nominal);
     double low = fmax(value - step, known->minimum), high = fmin(value + step, known->maximum);
-    if (evaluate(it, place, low, trial, &trial->low) != OK) return DISCARD;
-    if (evaluate(it, place, high, trial, &trial->high) != OK) return DISCARD;
+    if (!evaluated(it, place, low, trial, &trial->low, &why)) low = value;
+    if (!evaluated(it, place, high, trial, &trial->high, &why)) high = value;
+    contact_outputs *here = low == value ? &trial->low : &trial->high;
+    if (low == high || ((low == value || high == value) && !evaluated(it, place, value, trial, here, &why)))
+        return refuse(it, DISCARD, "A directional derivative", why.text);
     double *above = (double *)&trial->high;
     const double *below = (const double *)&trial->low;
     for (size_t i = 0; i < OUTPUTS; i++) above[i] = (above[i] - below[i]) / (high - low);

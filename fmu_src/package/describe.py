@@ -16,6 +16,8 @@ from ..native.built_in import native_variables
 from ..runtime.guarded import LOG_CATEGORIES
 from ..runtime.resources import MODEL, guid
 from ..variables import Value, Variable, variables
+from . import licences
+from .usable import usable
 
 INITIAL = {"parameter": "exact", "output": "calculated"}  # other causalities have one kind, which is left out
 
@@ -48,7 +50,7 @@ def described(scene: Scene, flavour: Flavour, version: Version = 2) -> Model:
 
 def variables_of(scene: Scene, flavour: Flavour) -> tuple[Variable, ...]:
     """Return the variables that the FMU of a scene describes; their order is that of the value references."""
-    return native_variables(scene) if flavour == "native" else variables(scene)
+    return usable(scene, native_variables(scene) if flavour == "native" else variables(scene))
 
 
 def value_text(value: Value) -> str:
@@ -70,6 +72,7 @@ def origin(model: Model, flavour: Flavour) -> dict[str, str]:
     tool = f"tribofmu {contact_core.__version__}"
     return {
         "description": model.text,
+        **licences.owner(),
         "version": contact_core.__version__,
         "generationTool": tool if flavour == "native" else f"{tool} with pythonfmu {pythonfmu.__version__}",
         "variableNamingConvention": "structured",

@@ -12,7 +12,7 @@ from xml.etree import ElementTree as ET
 from contact_core import ContactError, OperatingPoint, Outputs, advance, initial_state
 from contact_core.scene import Scene
 
-from ..variables import variables
+from ..variables import first_point, variables
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 EXPERIMENT, STIMULI, EXPECTED = "steps.exp", "steps-in.csv", "steps-ref.csv"
@@ -73,7 +73,7 @@ def reference(scene: Scene) -> dict[str, bytes]:
 
 def _points(scene: Scene) -> list[OperatingPoint]:
     """Return the operating point of each step, beginning with the start values."""
-    first = OperatingPoint(**{v.name: float(v.start) for v in variables(scene) if v.causality == "input"})
+    first = first_point(scene)
     lighter = replace(first, load=0.6 * first.load)
     slower = replace(lighter, speed_1=0.5 * first.speed_1, speed_2=0.5 * first.speed_2)
     back = replace(slower, speed_1=-slower.speed_1, speed_2=-slower.speed_2)

@@ -36,7 +36,6 @@ def description(model: Model, table: Sequence[Variable], flavour: Flavour) -> by
             "fmiVersion": VERSION,
             "modelName": model.name,
             "instantiationToken": model.guid,
-            "license": "BSD-3-Clause",
             **describe.origin(model, flavour),
         },
     )

@@ -37,6 +37,17 @@ def _file(package: str, name: str) -> bytes:
     return found[0].read_binary()
 
 
+def owner() -> dict[str, str]:
+    """Return the attributes of a model description that say whose the code in the FMU is, and who may use it."""
+    metadata = distribution(PACKAGE).metadata
+    lines = _file(PACKAGE, "LICENSE").decode().splitlines()
+    return {
+        "author": metadata["Author"],
+        "copyright": next(line for line in lines if line.startswith("Copyright")),
+        "license": metadata["License-Expression"],
+    }
+
+
 def python() -> str:
     """Return the supported versions of Python."""
     return distribution(PACKAGE).metadata["Requires-Python"]

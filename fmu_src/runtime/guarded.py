@@ -16,6 +16,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
+import numpy as np
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
@@ -200,6 +201,7 @@ class GuardedSlave(Fmi2Slave):
 
     # the guard
 
+    @np.errstate(all="ignore")  # numpy would warn on the host's stderr; numbers that are not finite are refused
     def _guard(self, action: Callable[..., None], *arguments: Any) -> None:
         """Run `action`; an exception becomes one log entry and valid = false."""
         try:

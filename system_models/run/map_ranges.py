@@ -112,8 +112,8 @@ def _largest_load(scene: Scene) -> float:
     for _ in range(60):
         load = math.sqrt(low * high)
         hertz = scene.hertz(load)
-        fits = hertz.a <= scene.room[0] and hertz.b <= scene.room[1]
-        low, high = (load, high) if fits and hertz.pressure_max <= _HARD * scene.plasticity.hardness else (low, load)
+        fits = scene.has_room(hertz) and hertz.pressure_max <= _HARD * scene.plasticity.hardness
+        low, high = (load, high) if fits else (low, load)
     return low
 
 

@@ -336,6 +336,9 @@ def test_the_icon_is_the_picture_that_its_script_draws(files):
 def test_the_licences_are_ours_and_that_of_the_library_in_the_fmu(files):
     assert files["documentation/licenses/license.txt"] == (ROOT / "LICENSE").read_bytes()
     assert b"MIT License" in files["documentation/licenses/pythonfmu.txt"]
+    described = ET.fromstring(files["modelDescription.xml"])
+    assert [described.get(name) for name in ("author", "license")] == ["The tribofmu developers", "BSD-3-Clause"]
+    assert described.get("copyright", "none") in (ROOT / "LICENSE").read_text().splitlines()
     isolated = licences.licences("isolated")
     assert set(isolated) == {"license.txt", "fmi.txt"}
     assert b"Redistribution and use in source and binary forms" in isolated["fmi.txt"]

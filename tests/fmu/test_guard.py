@@ -3,10 +3,11 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from comparison import approx
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import fmi2Error, fmi2Terminated
+from fmpy.fmi2 import fmi2Error, fmi2Terminated, fmi2Warning
 
 from contact_core import Outputs
 from fmu_src.runtime import slave
@@ -338,6 +339,15 @@ def test_an_answer_that_cannot_be_told_in_part_is_not_told_at_all(stepped, monke
     monkeypatch.setattr(slave, "advance", broken)
     assert stepped.step(60.0) == before | {"valid": False}
     assert [status for status, _ in stepped.log] == [fmi2Error]
+
+
+def test_numbers_too_large_for_numpy_leave_no_warning_on_the_stderr_of_the_host(stepped, monkeypatch):
+    def overflowing(scene, point, state, dt):
+        return state, replace(Outputs(), friction_force=float(np.float64(1e300) * 1e300))
+
+    monkeypatch.setattr(slave, "advance", overflowing)
+    assert not stepped.step(60.0)["valid"]  # where a warning is an error, as in tests, it would be an unexpected one
+    assert [status for status, _ in stepped.log] == [fmi2Warning]
 
 
 def test_the_users_interrupt_ends_the_simulation_until_a_state_is_restored(stepped, monkeypatch):

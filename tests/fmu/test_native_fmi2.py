@@ -15,6 +15,7 @@ from tests.comparison import approx
 pytestmark = [pytest.mark.fmu, pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")]
 
 HOT = 460.0  # K: the stand-in refuses it
+HOTTEST = 450.0  # K: it does not refuse this
 ODD = 99.0  # m/s: not a number comes out
 
 
@@ -229,6 +230,9 @@ def test_directional_derivatives_of_friction_are_the_contacts_own_and_others_dif
     assert slope("friction_force", "spin") == 0.0
     ready.set(load=0.0)  # at its bound: one-sided
     assert slope("h_c", "load") == approx(math.sqrt(radius) / (1.0 + film), rel=1e-8)
+    ready.set(temperature=HOTTEST)  # the equations refuse what is above
+    assert slope("h_c", "load") == approx(math.sqrt(radius) / (1.0 + film), rel=1e-8)
+    assert slope("h_c", "temperature") == 0.0
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ import shutil
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 
 import fmpy
 import numpy as np
@@ -13,13 +14,28 @@ from comparison import approx
 
 from benchmarks.fmu import native_scenes
 from benchmarks.fmu.native_contact import NativeContact
-from contact_core import ContactError, ConvergenceError, OperatingPointError, Scene, advance, initial_state
+from contact_core import (
+    ContactError,
+    ContactState,
+    ConvergenceError,
+    OperatingPointError,
+    Scene,
+    advance,
+    initial_state,
+)
 from contact_core.regression import evolution, fatigue
 from contact_core.scene import with_values
 from contact_core.state import parts
-from fmu_src.variables import SPECIAL, Variable, variables
+from fmu_src.flavours import Flavour
+from fmu_src.package.describe import variables_of
+from fmu_src.package.usable import usable
+from fmu_src.variables import SPECIAL, Variable, first_point, variables
 from tests.unit.cheap_scene import cheap
 
+NEAR = 1e-4  # relative: beyond an end by so much
+INPUTS = {"heat.bulk.model": "inputs", "operation.body_temperature_1": "350 K"}
+RADII = ("radius_x", "radius_y")
+MENISCUS = {"lubricant.supply.model": "meniscus", "lubricant.supply.distance": "0.2 mm"}
 LIMIT = 240.0  # s: of one step of 20 000 parts of 2 ms, on a busy machine
 FEW = 50  # parts
 LUMPED = {
@@ -137,6 +153,86 @@ def test_blocks_of_too_many_parts_are_refused(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(parts, "MOST_PARTS", 2)
     with pytest.raises(ConvergenceError, match="more than 2 parts"):
         advance(scene, op, state, 60.0)
+
+
+def narrowed(scene: Scene, flavour: Flavour = "isolated") -> list[tuple[Variable, Variable]]:
+    """Each input as contacts have it, and as the FMU of the scene describes it."""
+    pairs = zip(variables(scene), variables_of(scene, flavour), strict=True)
+    return [(wide, own) for wide, own in pairs if wide.causality == "input"]
+
+
+def answer(scene: Scene, state: ContactState, name: str, value: float) -> str:
+    """The error of a step with an input, if there is one."""
+    try:
+        advance(scene, replace(first_point(scene), **{name: value}), state, scene.operation.interval)
+    except ContactError as error:
+        return str(error)
+    return ""
+
+
+@pytest.mark.parametrize(
+    ("name", "level", "changes", "limited"),
+    [
+        pytest.param("mtm_zddp", "regression", {}, {"load", "temperature", *RADII}, marks=pytest.mark.long),
+        pytest.param("mtm_zddp", "map", {}, {"load", "temperature", *RADII}, marks=pytest.mark.long),
+        ("mtm_zddp", "regression", INPUTS, {"load", "body_temperature_1", "body_temperature_2", *RADII}),
+        ("pin_on_disc", "regression", MENISCUS, {"load", "temperature", *RADII}),
+        ("fzg_flank", "regression", {}, {"temperature", "radius_x"}),
+        pytest.param("dimple_rolling", "regression", {}, {"load", *RADII}, marks=pytest.mark.long),
+    ],
+)
+def test_inputs_are_described_as_far_as_the_scene_can_use_them(
+    name: str, level: str, changes: dict[str, str], limited: set[str]
+) -> None:
+    scene = Scene.from_toml(name, changes).at_level(level)
+    found, state = narrowed(scene), initial_state(scene)
+    assert {own.name for wide, own in found if wide != own} == limited
+    for wide, own in found:
+        assert wide.minimum <= own.minimum <= own.start <= own.maximum <= wide.maximum
+        for end, widest, out in ((own.minimum, wide.minimum, -NEAR), (own.maximum, wide.maximum, NEAR)):
+            assert answer(scene, state, own.name, end) == ""
+            assert end == widest or answer(scene, state, own.name, end * (1.0 + out)) != ""
+
+
+def test_the_grid_of_the_deterministic_level_limits_load_and_radii() -> None:
+    scene = Scene.from_toml("azam_case_a").at_level("deterministic")
+    found = {own.name: own for _, own in narrowed(scene)}
+    assert scene.hertz(found["load"].maximum).a == approx(scene.room[0], rel=NEAR)
+    assert (found["temperature"].minimum, found["temperature"].maximum) == (358.15, 368.15)
+    wider = replace(first_point(scene), radius_x=(1.0 + NEAR) * found["radius_x"].maximum)
+    assert "film.domain" in scene.refusal(wider)
+
+
+@pytest.mark.long
+def test_the_level_auto_uses_what_the_regression_level_uses(mtm: Scene) -> None:
+    assert narrowed(mtm.at_level("auto")) == narrowed(mtm)  # a block that has no solution tells it nothing
+
+
+def test_a_scene_that_cannot_use_its_start_values_is_described_as_all_contacts(mtm: Scene) -> None:
+    cold = replace(mtm, operation=replace(mtm.operation, temperature=300.0))
+    assert usable(cold, variables(cold)) == variables(cold)
+
+
+@pytest.mark.long
+def test_solved_contacts_take_the_ends_of_described_inputs() -> None:
+    scene, state, _ = cheap()
+    for _, own in narrowed(scene):
+        for end in (own.minimum, own.maximum):
+            assert answer(scene, state, own.name, end) == ""
+
+
+@pytest.mark.long
+@pytest.mark.fmu
+@pytest.mark.parametrize("flavour", ["embedded", "isolated", "native"])
+def test_steps_with_the_ends_of_described_inputs_are_valid(flavour, mtm, built, monkeypatch) -> None:
+    monkeypatch.setenv("TRIBOFMU_PYTHON", shutil.which("python") or "")
+    file = str(built.fmu(mtm, flavour))
+    for v in fmpy.read_model_description(file).modelVariables:
+        for end in (v.min, v.max) if v.causality == "input" else ():
+            found = fmpy.simulate_fmu(
+                file, stop_time=0.2, output_interval=0.1, start_values={v.name: float(end)}, output=["valid"]
+            )
+            assert found["valid"].all(), (v.name, end)
 
 
 @pytest.mark.long

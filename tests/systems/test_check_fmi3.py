@@ -43,7 +43,7 @@ def test_our_own_fmu_fails_no_rule(tmp_path: Path, flavour: Flavour, monkeypatch
     assert verdicts(static_findings(fmu), Verdict.FAIL) == set()
     found = answers(fmu)
     assert verdicts(found, Verdict.FAIL) == set()
-    assert verdicts(found, Verdict.NOTE) <= {"step splitting", "derivatives", "input range"}
+    assert verdicts(found, Verdict.NOTE) <= {"step splitting", "derivatives"}
     assert found["stop time"].verdict == Verdict.PASS
 
 

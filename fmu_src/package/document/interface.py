@@ -122,7 +122,10 @@ def _events(flavour: Flavour) -> tuple[tuple[str, str, str], ...]:
 
 def variable_tables(scene: Scene, flavour: Flavour) -> Iterator[str]:
     """Yield the section of all variables."""
-    yield paragraph("All values are in SI units. Bounds are those of modelDescription.xml.")
+    yield paragraph(
+        "All values are in SI units. Bounds are those of modelDescription.xml; those of an input are what this scene "
+        "can use with the other inputs at their start values."
+    )
     listed = variables_of(scene, flavour)
     for title, causality in _KINDS:
         yield f"<h3>{title}</h3>"
