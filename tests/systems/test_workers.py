@@ -1,5 +1,6 @@
 """Workers that are lost: the command ends with what has come and a sentence, and waits for nothing that cannot come."""
 
+import itertools
 import os
 import signal
 import socket
@@ -7,7 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
-from concurrent.futures import CancelledError, Executor, Future
+from concurrent.futures import CancelledError, Executor, Future, wait
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -49,8 +50,15 @@ def test_what_has_come_is_given_before_the_sentence_and_nothing_is_waited_for(
     executor = Scripted(ends, closed)
     lost = Workers(executor, count, (CancelledError,), lambda loss: "Workers are lost.")
     got: list[int] = []
+    waits = itertools.count()
+
+    def bounded(*given: Any) -> Any:
+        assert next(waits) <= len(ends), "it waits for ever"
+        return wait(*given)
+
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "_LOOK", 0.001)
+        patch.setattr(module, "wait", bounded)
         try:
             got.extend(done_by(lost, abs, ((-k,) for k in range(len(ends)))))
         except ContactError as error:
