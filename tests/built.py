@@ -18,7 +18,7 @@ from filelock import FileLock
 from contact_core import Scene
 from fmu_src.flavours import Flavour, Version
 from fmu_src.native import build as native_build
-from fmu_src.native import program
+from fmu_src.native import keeping
 from fmu_src.package.build import build
 from fmu_src.runtime import resources
 from system_models.parts import resources as resources_of_parts
@@ -71,26 +71,13 @@ class Built:
     @contextmanager
     def sharing(self) -> Iterator[None]:
         """All processes of the run share what takes longest of native FMUs: equations in C, and what is compiled."""
-        written, compiled = program._equations, native_build._object
 
-        def equations(scene: Scene) -> dict[str, str]:
-            def make(folder: Path) -> None:
-                for name, text in written(scene).items():
-                    (folder / name).write_text(text, encoding="utf-8")
-
-            folder = self.folder(("equations", program._key(scene)), make)
-            return {path.name: path.read_text("utf-8") for path in sorted(folder.iterdir())}
-
-        def object_of(*source: Any) -> bytes:
-            folder = self.folder(
-                ("object", native_build.FLAGS, *source),
-                lambda folder: (folder / "one.o").write_bytes(compiled(*source)),
-            )
-            return (folder / "one.o").read_bytes()
+        def kept(key: object, make: Callable[[], bytes]) -> bytes:
+            folder = self.folder(key, lambda folder: (folder / "made").write_bytes(make()))
+            return (folder / "made").read_bytes()
 
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(program, "_equations", equations)
-            patch.setattr(native_build, "_object", object_of)
+            patch.setattr(keeping, "kept", kept)
             yield
 
 

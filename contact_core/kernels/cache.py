@@ -43,13 +43,20 @@ def ensure() -> str:
 
 def _places() -> list[Path]:
     """Return the folders in which numba keeps the compiled functions of this folder, by preference."""
-    beside = Path(__file__).with_name("__pycache__")
+    beside, of_user = Path(__file__).with_name("__pycache__"), user_cache()
+    if of_user is None:
+        return [beside]
+    return [beside, of_user if sys.platform == "win32" else of_user / "numba"]
+
+
+def user_cache() -> Path | None:
+    """Return the folder of this user's caches; None for a user without a home folder."""
     if sys.platform == "win32":
-        return [beside, Path(os.environ.get("LOCALAPPDATA", tempfile.gettempdir()))]
+        return Path(os.environ.get("LOCALAPPDATA", tempfile.gettempdir()))
     caches = "~/Library/Caches" if sys.platform == "darwin" else os.environ.get("XDG_CACHE_HOME", "~/.cache")
-    with contextlib.suppress(RuntimeError):  # a user without a home folder
-        return [beside, Path(caches).expanduser() / "numba"]
-    return [beside]
+    with contextlib.suppress(RuntimeError):
+        return Path(caches).expanduser()
+    return None
 
 
 def _can_be_written(folder: Path) -> bool:

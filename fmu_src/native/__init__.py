@@ -9,6 +9,7 @@
     level      the level of a scene that has none without a solver
     built_in   variables as hosts see them: parameters with one value
     names      names of variables in C
+    keeping    what takes long to make is kept for later runs
     build      the sources that every FMU shares, and libraries by zig or gcc
 
 Sources that every FMU shares: instance.c (order of calls, steps), values.c (variables), states.c (saved states),

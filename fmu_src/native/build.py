@@ -18,6 +18,7 @@ from typing import Literal
 
 from ..flavours import Version
 from ..isolated.native.build import headers
+from . import keeping
 
 Fmi = Version
 Compiler = Literal["zig", "gcc", "cc"]
@@ -186,10 +187,12 @@ def compiled(folder: Path, target: str, compiler: Compiler) -> bytes:
     """Return the library of all C files in a folder for one target; files met before are not compiled again."""
     sources = {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix in (".c", ".h")}
     headers_of_all = tuple(sorted((name, data) for name, data in sources.items() if name.endswith(".h")))
+    options = [flag for flag in FLAGS if flag not in _OF_LINKER]
+    one = (*_caller(target, compiler), *WARNINGS, *options)
     with tempfile.TemporaryDirectory() as scratch:
         for name, data in sources.items():
             if name.endswith(".c"):
-                made = _object(name, data, headers_of_all, target, compiler)
+                made = _object(name, data, headers_of_all, one, compiler)
                 Path(scratch, f"{name.removesuffix('.c')}.o").write_bytes(made)
         library = Path(scratch, f"library{TARGETS[target].suffix}")  # zig also writes an import library
         files = sorted(path.name for path in Path(scratch).glob("*.o"))
@@ -200,15 +203,24 @@ def compiled(folder: Path, target: str, compiler: Compiler) -> bytes:
 
 @lru_cache(maxsize=512)
 def _object(
-    name: str, source: bytes, included: tuple[tuple[str, bytes], ...], target: str, compiler: Compiler
+    name: str, source: bytes, included: tuple[tuple[str, bytes], ...], call: tuple[str, ...], compiler: Compiler
 ) -> bytes:
-    """Return one C file compiled."""
+    """Return one C file compiled, by an earlier run or now; `call`: the compiler's call without the file."""
+    key = ("object", name, source, included, call, _version(compiler))
+    return keeping.kept(key, lambda: _compiled_now(name, source, included, call))
+
+
+@lru_cache(maxsize=3)
+def _version(compiler: Compiler) -> str:
+    call = [*_caller("x86_64-linux", compiler), "--version"]
+    return subprocess.run(call, capture_output=True, text=True, check=True).stdout
+
+
+def _compiled_now(name: str, source: bytes, included: tuple[tuple[str, bytes], ...], call: tuple[str, ...]) -> bytes:
     with tempfile.TemporaryDirectory() as scratch:
         for file, data in (*included, (name, source)):
             Path(scratch, file).write_bytes(data)
-        options = [flag for flag in FLAGS if flag not in _OF_LINKER]
-        call = [*_caller(target, compiler), *WARNINGS, *options, "-isystem", str(headers()), "-c", name, "-o", "one.o"]
-        subprocess.run(call, cwd=scratch, check=True)
+        subprocess.run([*call, "-isystem", str(headers()), "-c", name, "-o", "one.o"], cwd=scratch, check=True)
         return Path(scratch, "one.o").read_bytes()
 
 

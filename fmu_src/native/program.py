@@ -25,7 +25,9 @@ from contact_core.scene import Case, OperatingPoint, Scene
 from contact_core.state import Classes, ContactState, Mean, Outputs, changed
 from contact_core.surfaces.track_means import means_of
 
+from ..runtime.resources import homes_of, packed
 from ..variables import variables
+from . import keeping
 from .calls import TRACKS, calling, header, initialise, source, stack_of
 from .translate import Entry, Num, Stored, Translator, Untranslatable, array_kind, is_number, literal, parts
 
@@ -202,7 +204,7 @@ def written(scene: Scene) -> dict[str, str]:
     _check(scene)
     geometry, key = scene.geometry, _key(scene)
     if key not in _written:
-        _written[key] = _equations(scene)
+        _written[key] = _equations_kept(scene)
     return {**_written[key], "tracks.c": _tracks(geometry.track_length_1, geometry.track_length_2)}
 
 
@@ -239,6 +241,12 @@ def _at_run_time(scene: Scene) -> Scene:
     fields = {field.name: getattr(scene, field.name) for field in dataclasses.fields(scene)}  # no cached properties
     loose.__dict__.update(fields | {"geometry": geometry})
     return loose
+
+
+def _equations_kept(scene: Scene) -> dict[str, str]:
+    """Return the equations, written by an earlier run or now."""
+    key = ("equations", keeping.code_of("contact_core", "fmu_src", *homes_of(scene)), _key(packed(scene)))
+    return keeping.kept_texts(key, lambda: _equations(scene))
 
 
 def _equations(scene: Scene) -> dict[str, str]:

@@ -74,16 +74,20 @@ def module_name(scene: Scene) -> str:
 
 def _fingerprint(scene: Scene) -> str:
     built_with = versions_of(scene)
-    return hashlib.sha256(json.dumps([_packed(scene).to_dict(), built_with], sort_keys=True).encode()).hexdigest()
+    return hashlib.sha256(json.dumps([packed(scene).to_dict(), built_with], sort_keys=True).encode()).hexdigest()
 
 
 def versions_of(scene: Scene) -> dict[str, str]:
     """Return the versions of the packages that the FMU of a scene is built with, those of other packages' laws too."""
-    homes = {type(used.law).__module__.partition(".")[0] for used in in_use(scene)}
-    return VERSIONS | versions(homes - {contact_core.__name__})
+    return VERSIONS | versions(homes_of(scene) - {contact_core.__name__})
 
 
-def _packed(scene: Scene) -> Scene:
+def homes_of(scene: Scene) -> set[str]:
+    """Return the names of the packages that the laws of a scene come from."""
+    return {type(used.law).__module__.partition(".")[0] for used in in_use(scene)}
+
+
+def packed(scene: Scene) -> Scene:
     """Return the scene with its files of heights under the names that they have in an FMU."""
     first, second = (
         surface if surface.heights is None else replace(surface, heights=surface.heights.packed)
@@ -113,7 +117,7 @@ def _map_text(scene: Scene) -> bytes | None:
 
 def files(scene: Scene) -> dict[str, bytes]:
     """Return name and content of every file in `resources/` that both flavours have."""
-    module, chart, scene = module_name(scene), _map_text(scene), _packed(scene)
+    module, chart, scene = module_name(scene), _map_text(scene), packed(scene)
     given = (surface.heights for surface in (scene.surface_1, scene.surface_2))
     return {
         **{heights.file: heights.npy() for heights in given if heights is not None},

@@ -2,6 +2,7 @@
 
 import argparse
 import itertools
+from contextlib import suppress
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from ..machines.assembly import Assembly
     from ..machines.reading import Machine
     from ..master import System
+    from ..store.checkpoint import Checkpoint
 
 
 _LEVEL, _DEEP = "contact.film.model", "deterministic"  # keys that set the levels of contacts
@@ -33,6 +35,9 @@ _STAND_FOR = {
     "grid": "contact.film.points",
     "duty": "duty.file",
 }
+
+
+_DOUBLE_STEPS, _STATES = "double_steps", "states_solved_again"  # folders of unfinished checks
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -125,8 +130,10 @@ def _run_in(
 
         def report(dataset: "xr.Dataset", folder: Path) -> int:
             code = _report(dataset, folder, assembly, machine.kind)
-            return code if unchecked else _check(dataset, folder, assembly, system, code)
+            return code if unchecked else _check(dataset, folder, assembly, system, code, arguments.resume)
 
+        if not arguments.resume:
+            _forget_checks(folder)
         return carry_out(
             system, settings, assembly.name, folder, arguments.resume, arguments.force, report, about, **attributes
         )
@@ -152,10 +159,10 @@ def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str
     return code
 
 
-def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "System", code: int) -> int:
+def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "System", code: int, resume: bool) -> int:
     """Simulate with double steps and solve states again; write both findings.
 
-    Return the exit code, which has been `code` so far.
+    Return the exit code, which has been `code` so far. With `resume` go on from what an interrupted check has kept.
     """
     from ..machines import corrected, coupling_error, resolve
     from ..master import simulate
@@ -165,14 +172,24 @@ def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "S
     begin = monotonic()
     settings = coupling_error.coarser(dataset, assembly.settings, assembly.schedule)
     with shown(f"{assembly.name}, double steps", settings["stop_time"], "{n:.4g}/{total:.4g} s") as progress:
-        coarse = simulate(system, **settings, outputs=assembly.outputs(), progress=progress)
+        coarse = simulate(
+            system,
+            **settings,
+            outputs=assembly.outputs(),
+            checkpoint=folder / _DOUBLE_STEPS,
+            resume=resume,
+            progress=progress,
+        )
     dataset = coupling_error.stated(dataset, coarse, assembly.schedule)
     print("", *coupling_error.lines(dataset, assembly.nominals()), sep="\n")
     print(f"This took {monotonic() - begin:.0f} s.", "", sep="\n", flush=True)
     begin = monotonic()
     tried = itertools.count(1)
+    store = _store_of_states(folder, dataset, resume)
     with counted(assembly.name, "states solved again") as show:
-        states = resolve.resolve(assembly, dataset, lambda done: show(next(tried), f"{assembly.name}, {done}"))
+        states = resolve.resolve(
+            assembly, dataset, lambda done: show(next(tried), f"{assembly.name}, {done}"), store=store
+        )
     better = corrected.corrected(assembly, dataset, states)
     print(
         *resolve.lines(states),
@@ -188,4 +205,25 @@ def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "S
     found = (resolve.to_dataset(states), "resolved"), (results.with_half_widths(better), "corrected")
     print(f"Written: {', '.join(str(results.write(each, folder, name)[0]) for each, name in found)}")
     results.write(resolve.marked(dataset, states).assign_attrs({EXIT_CODE: code}), folder)
+    _forget_checks(folder)
     return code
+
+
+def _store_of_states(folder: Path, dataset: "xr.Dataset", resume: bool) -> "Checkpoint":
+    """Return what keeps the states of this simulation that are solved again."""
+    from ..store.checkpoint import Checkpoint
+
+    run = {"simulation": dataset.attrs["simulation_json"]}
+    own = output_folder(str(folder / _STATES), "")
+    return Checkpoint.resume(own, run) if resume else Checkpoint(own, run)
+
+
+def _forget_checks(folder: Path) -> None:
+    """Remove what is kept of unfinished checks."""
+    from ..store.checkpoint import Checkpoint
+
+    for own in (folder / _DOUBLE_STEPS, folder / _STATES):
+        if own.is_dir():
+            Checkpoint(own, {}).remove()
+            with suppress(OSError):  # a file of somebody else
+                own.rmdir()

@@ -2,6 +2,7 @@
 
 import logging
 import sys
+from bisect import bisect_right
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,6 +12,9 @@ from contact_core.errors import ContactError, StateError
 
 from .alive import alive
 from .console import note
+
+_LEAST_SHARE = 0.025  # of the work; with less in the later half of the time no time left is estimated
+_APART = 1.01  # of two times that are kept: a run of any length keeps some hundreds
 
 
 def note_replaced(file: Path) -> None:
@@ -64,9 +68,41 @@ def _living(name: str, text: str, **amounts: Any) -> Iterator[Any]:
     from tqdm import tqdm
     from tqdm.contrib.logging import logging_redirect_tqdm
 
+    class Bar(tqdm):
+        """Estimates the time left by a pace that few odd steps do not change."""
+
+        pace = Pace(amounts.get("initial", 0.0), amounts["total"])
+
+        @property
+        def format_dict(self) -> dict[str, Any]:
+            found: dict[str, Any] = super().format_dict
+            return found | {"rate": self.pace.at(found["elapsed"], found["n"])}
+
     logging.basicConfig(format="%(message)s")
-    with tqdm(desc=name, bar_format=text, **amounts) as bar, logging_redirect_tqdm(), alive(bar):
+    with Bar(desc=name, bar_format=text, **amounts) as bar, logging_redirect_tqdm(), alive(bar):
         yield bar
+
+
+class Pace:
+    """How fast a command goes on: over the later half of its time so far, if that has brought enough of its work.
+
+    The first steps may compile, load or be tiny, and after a change of the duty again; kept parts take no time at all.
+    The newest step alone, or the mean of all, would be off by orders of magnitude.
+    """
+
+    def __init__(self, begin: float, total: float | None) -> None:
+        self._least = _LEAST_SHARE * ((total or 0.0) - begin)
+        self._times, self._done = [0.0], [begin]  # [s], and what was done then
+
+    def at(self, elapsed: float, done: float) -> float:
+        """Return what is done per second, of the latest progress at a time [s]; 0: not known yet."""
+        if done > self._done[-1] and elapsed > _APART * self._times[-1]:
+            self._times.append(elapsed)
+            self._done.append(done)
+        now = self._times[-1]
+        middle = bisect_right(self._times, now / 2.0) - 1
+        gain = self._done[-1] - self._done[middle]
+        return gain / (now - self._times[middle]) if now and gain >= self._least else 0.0
 
 
 @contextmanager

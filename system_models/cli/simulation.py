@@ -47,7 +47,8 @@ def carry_out(
     dataset = _simulated(system, settings, name, checkpoint, continues, about or {})
     if not continues:
         dataset.attrs["wall_seconds"] = monotonic() - begin
-    code = report(dataset.assign_attrs(origin | dict(about or {})), folder)
+    with continued_by_resume(lambda: checkpoint if _stamp(checkpoint) else None):
+        code = report(dataset.assign_attrs(origin | dict(about or {})), folder)
     _remove_checkpoint(folder)
     return code
 

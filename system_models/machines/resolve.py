@@ -7,7 +7,7 @@ goes to the deterministic level, on its own shape and surfaces.
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -20,6 +20,8 @@ from contact_core.correction import Place, pair_of, place
 from contact_core.quantities import LEVELS
 from contact_core.scene import Case, Scene, tunables, with_values
 
+from ..master.saving import pack, unpack
+from ..store.checkpoint import Checkpoint
 from .assembly import Assembly, Contact
 
 FAST, DEEP = LEVELS[:2]
@@ -71,11 +73,19 @@ class Resolved:
         return ("yes" if self.valid else "NO") if self.solved else "not decided: not converged"
 
 
-def resolve(assembly: Assembly, dataset: xr.Dataset, progress: Callable[[str], None], count: int = 6) -> list[Resolved]:
+def resolve(
+    assembly: Assembly,
+    dataset: xr.Dataset,
+    progress: Callable[[str], None],
+    count: int = 6,
+    store: Checkpoint | None = None,
+) -> list[Resolved]:
     """Solve states again, spread over the contacts and over the time of the run.
 
-    It ends with `count` states that can be judged, or after twice as many tries. `progress` is called with each.
+    It ends with `count` states that can be judged, or after twice as many tries. `progress` is called with each. Those
+    that `store` has are not solved once more; others are added to it.
     """
+    known = {(state.contact, state.row): state for state in map(_unpacked, store.kept if store else ())}
     found: list[Resolved] = []
     usable = {name: _usable(dataset, name, assembly.contacts[name]) for name in _spread(assembly, dataset, count)}
     for rows in _windows(dataset["time"].values, count):
@@ -83,12 +93,32 @@ def resolve(assembly: Assembly, dataset: xr.Dataset, progress: Callable[[str], N
         for contact, row in _candidates(rows, usable, tried):
             if len(found) == 2 * count:
                 return found
-            found.append(solved_again(assembly, dataset, contact, row))
+            found.append(known.get((contact, row)) or _solved_and_stored(assembly, dataset, contact, row, store))
             judged = sum(state.solved for state in found)
             progress(f"{contact} at {found[-1].time:.4g} s, {judged} of {count} judged")
             if found[-1].solved:
                 break
     return found
+
+
+def _solved_and_stored(
+    assembly: Assembly, dataset: xr.Dataset, contact: str, row: int, store: Checkpoint | None
+) -> Resolved:
+    """Return a state as a continued run will read it."""
+    state = solved_again(assembly, dataset, contact, row)
+    packed = pack({}, {**asdict(state), "place": state.place and tuple(state.place)})
+    if store:
+        store.kept.append(packed)
+        store.save(state.time, b"", np.array([(state.time,)], [("time", "f8")]))
+    return _unpacked(packed)
+
+
+def _unpacked(packed: bytes) -> Resolved:
+    """Return a state that `_solved_and_stored` has packed."""
+    _, table = unpack(packed)
+    deep, place = table["deep"], table["place"]
+    outputs = {"fast": Outputs(**table["fast"]), "deep": deep and Outputs(**deep)}
+    return Resolved(**{**table, **outputs, "place": place and Place(*place)})
 
 
 def _windows(times: NDArray[np.float64], count: int) -> Iterator[Sequence[int]]:

@@ -5,6 +5,7 @@ from typing import Any
 from contact_core.errors import SceneError
 from fmu_src.flavours import Version
 from fmu_src.native import build as native
+from fmu_src.native import keeping
 from fmu_src.native.model import model_c
 from fmu_src.native.names import c_name
 from fmu_src.native.program import calling, header, source, translated
@@ -16,6 +17,7 @@ from .resources import guid
 from .scalars import INSTEAD
 from .variables import variables
 
+_CODE = ("contact_core", "fmu_src", "system_models")  # packages whose code writes the C
 Found = tuple[State, dict[str, float]]
 
 
@@ -35,7 +37,10 @@ def sources(part: Part, fmi: Version = 2) -> dict[str, bytes]:
     """Return name and content of the sources. Raises SceneError if the component has no C."""
     token, states = guid(part, "native", fmi), guid(part, "native")
     try:
-        texts = _written(part)
+        texts = keeping.kept_texts(
+            ("component", keeping.code_of(*_CODE, type(part).__module__.partition(".")[0]), states),
+            lambda: _written(part),
+        )
     except Untranslatable as error:
         raise SceneError(
             f"A {part.name} has no native FMU so far ({error}). Take flavour = 'isolated' for the components."

@@ -18,7 +18,6 @@ pytestmark = [pytest.mark.fmu, pytest.mark.skipif(shutil.which("gcc") is None, r
 
 LONG = pytest.mark.long
 RUNS, STEPS = 4, 8
-EQUATIONS = program._equations  # before processes share what it returns
 ZIG = (sys.executable, "-m", "ziglang", "cc", "-O2")
 
 
@@ -50,7 +49,7 @@ def test_every_law_can_be_written_as_c(changes, monkeypatch):
         return entry, translator.texts([entry])
 
     monkeypatch.setattr(program, "translated", in_one_pass)
-    sources = EQUATIONS(native_scenes.scene_of(changes))
+    sources = program._equations(native_scenes.scene_of(changes))
     assert "contact_step(" in sources["contact.c"]
     assert "contact_derivatives(" in sources["slopes.c"]
 

@@ -3,6 +3,8 @@
 import threading
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from contact_core.progress import ALGORITHM, tell
 from system_models.cli import alive, progress
@@ -83,6 +85,39 @@ def test_time_left_of_parts_leaves_out_what_compiling_took(monkeypatch: pytest.M
         clock[0] = now
         doing.told("instant", number, 8)
     assert doing.text() == "instant 5 of 8, about 8 s left of them"
+
+
+WORK = st.lists(st.floats(0.5, 1.5), min_size=20, max_size=20)  # seconds of each part
+
+
+@given(parts=WORK, compiling=st.floats(0.0, 60.0), tiny=st.integers(0, 60), kept=st.integers(0, 8))
+def test_time_left_does_not_jump_by_what_the_first_steps_cost(
+    parts: list[float], compiling: float, tiny: int, kept: int
+) -> None:
+    """Compiling, steps that begin tiny, and parts that are kept from before; near the end the time is known."""
+    pace = progress.Pace(0.0, float(len(parts)))
+    elapsed, rows = compiling, []
+    for k in range(tiny):
+        elapsed += 0.05
+        rows.append((elapsed, 1e-6 * (k + 1)))
+    for k, seconds in enumerate(parts):
+        elapsed += seconds if k >= kept else 0.001
+        rows.append((elapsed, float(k + 1)))
+    for now, done in rows:
+        rate = pace.at(now, done)
+        if rate:
+            left = (len(parts) - done) / rate
+            assert left < 1800.0, "no hours in a run of minutes"
+            if done >= 16.0:
+                assert left <= 3.0 * (elapsed - now) + 20.0
+    assert rate > 0.0
+
+
+def test_before_there_is_enough_work_no_time_is_estimated() -> None:
+    pace = progress.Pace(100.0, 200.0)
+    assert pace.at(0.0, 100.0) == 0.0
+    assert pace.at(60.0, 102.4) == 0.0
+    assert pace.at(61.0, 102.5) > 0.0
 
 
 def test_a_counter_shows_what_compiles_while_no_part_is_done(capsys: pytest.CaptureFixture[str]) -> None:

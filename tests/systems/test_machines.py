@@ -20,13 +20,14 @@ from test_ssp import SPACES, imported, structure
 from fmu_src.flavours import WITH_PYTHON
 from system_models.cli.main import main
 from system_models.cli.scenes import tell_unreached
-from system_models.machines import reading
+from system_models.machines import reading, resolve
 from system_models.machines.assembly import Assembly
 from system_models.machines.export import with_timetable
 from system_models.machines.files import shipped
 from system_models.master import System, export_ssp, simulate
 from system_models.parts.load_arm import LoadArm
 from system_models.store import results
+from system_models.store.checkpoint import Checkpoint
 
 SHORT = """time [s],entrainment_speed [m/s],slide_roll_ratio [1]
 0,1,0.5
@@ -205,6 +206,47 @@ def test_an_interrupt_within_a_component_ends_the_run_after_the_step_and_it_goes
     assert main([*rig, "--unchecked", "--resume"]) == 0
     assert "This simulation is finished" in capsys.readouterr().err
     assert len(calls) == steps
+
+
+def test_checks_go_on_from_where_they_were_interrupted(
+    rig: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """First within the double steps, then within the states that are solved again; nothing is computed twice."""
+    rig = [*rig, "simulate.stop_time=0.1 s", "--resume", "--out"]
+    calls: list[str] = []
+    stops: dict[str, int] = {}
+
+    def counted(name: str, whole: Any) -> Any:
+        def call(*given: Any) -> Any:
+            calls.append(name)
+            if calls.count(name) == stops.get(name):
+                signal.raise_signal(signal.SIGINT)
+            return whole(*given)
+
+        return call
+
+    monkeypatch.setattr(Checkpoint, "due", lambda self: True)
+    monkeypatch.setattr(LoadArm, "advance", counted("step", LoadArm.advance))
+    monkeypatch.setattr(resolve, "solved_again", counted("state", resolve.solved_again))
+    code = main([*rig, "whole"])
+    steps, states = calls.count("step"), calls.count("state")
+    spent: list[list[str]] = []
+    for stop in ({"step": steps - 2}, {"state": 3}, {}):
+        stops = stop
+        calls.clear()
+        capsys.readouterr()
+        assert main([*rig, "stopped"]) == (130 if stop else code)
+        assert ("the same command with --resume continues from there" in capsys.readouterr().err) == bool(stop)
+        spent.append([*calls])
+    assert [each.count("state") for each in spent] == [0, 3, states - 2]
+    assert sum(each.count("step") for each in spent) == steps
+    whole, found = result("whole"), result("stopped")
+    assert bits(found) == bits(whole)
+    assert {name: found[name].attrs for name in found} == {name: whole[name].attrs for name in whole}
+    assert found.attrs["checks"] == whole.attrs["checks"]
+    for name in ("resolved.nc", "corrected.nc"):
+        assert Path("stopped", name).read_bytes() == Path("whole", name).read_bytes()
+    assert not [path for path in Path("stopped").iterdir() if path.is_dir()]
 
 
 def test_any_contact_can_be_deterministic(rig: list[str], capsys: pytest.CaptureFixture[str]) -> None:
