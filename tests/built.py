@@ -36,6 +36,8 @@ class Built:
         self.root = (base.parent if xdist.is_xdist_worker(request) else base) / "built"
         self.models = self.root / "models"  # for benchmarks.models.build, which looks for itself what lies there
         self.models.mkdir(parents=True, exist_ok=True)
+        cache = getattr(request.config, "cache", None)  # of pytest, which -p no:cacheprovider leaves out
+        self.native = cache.mkdir("native") if cache else self.root / "native"
 
     def folder(self, key: object, make: Callable[[Path], object]) -> Path:
         """The folder that `make` fills; the repr of `key` tells all that decides how."""
@@ -70,13 +72,15 @@ class Built:
 
     @contextmanager
     def sharing(self) -> Iterator[None]:
-        """All processes of the run share what takes longest of native FMUs: equations in C, and what is compiled."""
+        """What takes longest of native FMUs is made once, also for later runs: equations in C, and what is compiled."""
+        alone = keeping.kept
 
         def kept(key: object, make: Callable[[], bytes]) -> bytes:
-            folder = self.folder(key, lambda folder: (folder / "made").write_bytes(make()))
-            return (folder / "made").read_bytes()
+            with FileLock(self.root / f"{hashlib.sha256(repr(key).encode()).hexdigest()[:16]}.lock"):
+                return alone(key, make)
 
         with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(keeping, "folder", lambda: self.native)
             patch.setattr(keeping, "kept", kept)
             yield
 

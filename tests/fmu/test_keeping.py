@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from contact_core.kernels import cache
 from fmu_src.native import build, keeping, program
 
-KEPT = keeping.kept  # before the processes of a run share what it returns
+KEPT, FOLDER = keeping.kept, keeping.folder  # before the processes of a run share what is kept
 
 
 @pytest.fixture
@@ -68,6 +68,7 @@ def test_what_no_run_has_asked_for_in_a_month_is_removed(own: Path) -> None:
 
 @pytest.mark.parametrize("cache", ["/dev/null/cache", None])
 def test_without_a_cache_it_is_made_each_time(cache: str | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(keeping, "folder", FOLDER)
     monkeypatch.setattr(keeping, "user_cache", lambda: cache and Path(cache))
     assert made("key")
     assert made("key")
