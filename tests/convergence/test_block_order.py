@@ -1,6 +1,7 @@
 """Time steps of the evolution are of first order; the sampling error of the dose falls with the instants."""
 
 import numpy as np
+import pytest
 from comparison import approx
 
 from contact_core import Scene, advance, initial_state
@@ -31,6 +32,7 @@ def test_wear_of_smooth_bodies_converges_with_first_order_in_the_blocks():
     assert np.log2(steps[0] / steps[1]) == approx(1.0, abs=0.3)
 
 
+@pytest.mark.long
 def test_the_dose_of_a_smooth_body_evens_out_with_the_instants():
     """Faster than by the square root of their number: their offsets are of low discrepancy."""
     spread = []

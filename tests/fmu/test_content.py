@@ -319,6 +319,7 @@ def is_part(wanted: list[str], found: list[str]) -> bool:
 # icon, licences, dependencies
 
 
+@pytest.mark.long
 def test_the_icon_is_the_picture_that_its_script_draws(files):
     data = files["model.png"]
     assert data[:8] == b"\x89PNG\r\n\x1a\n"

@@ -67,6 +67,7 @@ def test_what_the_surfaces_have_become_goes_down_and_up_again(stepped):
         assert before[name] < fast[name] == approx(back[name], rel=1e-3)
 
 
+@pytest.mark.long
 def test_a_roll_back_across_a_switch_leaves_no_trace(stepped):
     handle = stepped.fmu.getFMUstate()
     first = [stepped.step(60.0), stepped.step(30.0, fidelity=FAST), stepped.step(30.0, fidelity=FULL)]
@@ -83,6 +84,7 @@ def test_a_roll_back_across_a_switch_leaves_no_trace(stepped):
         stepped.fmu.freeFMUstate(state)
 
 
+@pytest.mark.long
 def test_a_state_between_two_levels_goes_on_in_another_process(stepped, folder, tmp_path):
     stepped.step(60.0, fidelity=FAST)
     stepped.set(fidelity=FULL)  # asked for, not yet used

@@ -132,6 +132,7 @@ def test_any_bytes_after_a_right_beginning_are_read_or_refused(start: bytes, res
     survives(start + rest)
 
 
+@pytest.mark.long
 def test_tables_that_lead_in_circles_are_refused() -> None:
     """A megabyte of libraries each of which imports all of that megabyte: by the letter, 10^10 names."""
     with pytest.raises(ImageError, match="it is damaged"):

@@ -49,6 +49,7 @@ def test_a_folder_with_a_space_in_its_name_works(fmu_file, tmp_path):
         assert host.initialise().step(60.0)["valid"]
 
 
+@pytest.mark.long
 def test_a_process_that_only_runs_the_fmu_ends_cleanly(fmu_file):
     """The binary of pythonfmu frees its interpreter twice at exit unless the slave sees to it."""
     code = f"import fmpy; print(len(fmpy.simulate_fmu({str(fmu_file)!r}, stop_time=2.0, output_interval=1.0)))"

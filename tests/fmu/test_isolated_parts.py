@@ -180,6 +180,7 @@ def test_a_component_that_was_changed_after_building_is_refused(host: NativeHost
     assert "was changed after building. Build it again." in instance.log[0][3]
 
 
+@pytest.mark.long
 def test_the_check_finds_no_fault(file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture) -> None:
     rules = ("run", "feedthrough", "reset")
     monkeypatch.setattr(deep, "RULES", {rule: deep.RULES[rule] for rule in rules})

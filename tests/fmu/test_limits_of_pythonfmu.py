@@ -111,6 +111,7 @@ def kept(quick_folder) -> tuple[float, float]:
     return sum(c.size_diff for c in changes) / cycles, sum(c.count_diff for c in changes) / cycles
 
 
+@pytest.mark.long
 def test_an_instance_leaves_little_behind(kept):
     assert kept[0] < 2000
 

@@ -21,7 +21,7 @@ BLOCKS = 500  # small objects of Python
     [
         (3_000, 2, {}),
         (2_000, 3, {"iterate": "aitken", "order": 1}),
-        (700, 2, {"tolerance": 1e-7, "order": 2}),
+        pytest.param(700, 2, {"tolerance": 1e-7, "order": 2}, marks=pytest.mark.long),
     ],
     ids=["saved in every step", "FMI 3, iterated", "with error control"],
 )

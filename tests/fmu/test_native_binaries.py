@@ -73,6 +73,7 @@ def test_zig_makes_the_committed_bytes(platform: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not build.available("gcc"), reason="needs gcc")
+@pytest.mark.long
 def test_the_sources_behave_as_the_committed_library(scene: Scene, tmp_path: Path) -> None:
     program = compiled(tmp_path)
     file = build_fmu(scene, tmp_path / "small.fmu", "isolated")

@@ -119,7 +119,7 @@ def test_arrays_that_take_more_stack_together_than_every_host_has_are_refused(mo
     [
         ("gcc", "-O0"),
         pytest.param(("gcc", "-O2"), marks=LONG),
-        ("gcc", "-O3", "-march=native"),
+        pytest.param(("gcc", "-O3", "-march=native"), marks=LONG),
         pytest.param(ZIG, marks=LONG),
     ],
 )

@@ -91,7 +91,7 @@ def test_a_state_stored_by_one_version_is_restored_by_the_other(packed: dict[int
 
 
 @pytest.mark.skipif(shutil.which("cmake") is None, reason="needs cmake")
-@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize("fmi", [pytest.param(2, marks=pytest.mark.long), 3])
 def test_fmpy_compiles_the_sources_to_a_library_with_the_same_bits(
     fmi: int, packed: dict[int, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

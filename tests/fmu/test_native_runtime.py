@@ -60,6 +60,7 @@ def test_optimisation_and_compiler_change_no_bit(compiler: str, answers: str, tm
     assert native_fuzz.digest(plain, SEQUENCES) == answers
 
 
+@pytest.mark.long
 def test_random_calls_are_clean_for_the_sanitizers(answers: str, tmp_path: Path) -> None:
     checked = native_fuzz.compiled(tmp_path, native_fmu.all_sources(), *native_fuzz.SANITIZED)
     assert native_fuzz.digest(checked, SEQUENCES) == answers

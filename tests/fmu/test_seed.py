@@ -25,6 +25,7 @@ def test_a_seed_gives_the_realisation_of_that_number_each_time(folder, scene):
     assert [bits(row) for row in rows] == direct(scene.realisation(7), STEPS[:1])[0]
 
 
+@pytest.mark.long
 def test_other_seeds_give_other_surfaces(folder):
     forces = {run(folder, seed=seed)[0]["friction_force"] for seed in (0, 1, 2, 2**31 - 1)}
     assert len(forces) == 4
@@ -36,6 +37,7 @@ def test_the_seed_and_the_seeds_of_the_surfaces_work_together(folder, scene):
     assert [bits(row) for row in rows] == direct(expected, STEPS[:1])[0]
 
 
+@pytest.mark.long
 def test_the_realisation_travels_with_the_state(host, folder):
     state, first = host.initialise(seed=7).state(), host.step(60.0)
     with hosted(folder) as second:

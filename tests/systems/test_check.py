@@ -251,7 +251,8 @@ def test_other_processes_are_asked(slave: Callable[..., Path]) -> None:
     assert verdicts(found, Verdict.FAIL) == {"replay"}
 
 
-@pytest.mark.parametrize("flavour", [pytest.param("embedded", marks=pytest.mark.long), "isolated"])
+@pytest.mark.long
+@pytest.mark.parametrize("flavour", ["embedded", "isolated"])
 def test_our_own_fmu_is_restored_in_another_process(
     flavour: Flavour, scene: Scene, built: Built, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -30,7 +30,7 @@ def test_an_fmu_that_minds_its_host_gets_no_note(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("unoptimised")
-@pytest.mark.parametrize("flavour", ["native", "isolated"])
+@pytest.mark.parametrize("flavour", [pytest.param("native", marks=pytest.mark.long), "isolated"])
 def test_our_own_fmu_fails_no_rule(tmp_path: Path, flavour: Flavour, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
     fmu = build(

@@ -107,6 +107,7 @@ def test_a_demand_on_the_host_is_worth_a_note(
 
 
 @pytest.mark.skipif(not has_landlock(), reason="this system has no Landlock")
+@pytest.mark.long
 def test_a_file_written_anywhere_but_in_the_temporary_folder_is_worth_a_note(slave: Callable[..., Path]) -> None:
     scribbling = f"{AT_WORK} and open('/proc/self/comm', 'w').write('slave')"
     found = deep_findings(slave("scribbles", start=scribbling), "home")["home"]
@@ -115,6 +116,7 @@ def test_a_file_written_anywhere_but_in_the_temporary_folder_is_worth_a_note(sla
     assert "Permission denied" in found.evidence
 
 
+@pytest.mark.long
 def test_a_library_that_forgets_its_instances_when_loaded_again_is_worth_a_note(tmp_path: Path) -> None:
     found = deep_findings(models.build("registrar", tmp_path), "two instances", "reloading")
     assert verdicts(found, Verdict.PASS) == {"run", "two instances"}

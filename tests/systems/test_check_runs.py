@@ -70,6 +70,7 @@ def test_an_fmu_of_several_levels_runs_at_its_cheapest_unless_asked(levelled: Pa
     assert "with fidelity = 2 (--set)" in found["start values"].evidence
 
 
+@pytest.mark.long
 def test_no_limit_of_an_isolated_fmus_start_fails_a_rule(slave: Callable[..., Path]) -> None:
     asks = "'pytest' in sys.modules or float(os.environ['TRIBOFMU_START_TIMEOUT'])"  # it runs while it is built, too
     assert deep_findings(slave("asks", start=asks), "finite")["run"].verdict == Verdict.PASS
@@ -79,6 +80,7 @@ def test_reference_results_are_those_of_the_fmus_own_start_values(levelled: Path
     assert deep_findings(levelled, "reference results")["reference results"].verdict == Verdict.PASS
 
 
+@pytest.mark.long
 def test_inputs_move_about_the_start_values_that_are_asked_for(slave: Callable[..., Path]) -> None:
     found = deep_findings(slave("fast", "if self.u < 4.0: return False"), "finite", u="4")
     assert found["run"].verdict == Verdict.PASS

@@ -176,6 +176,7 @@ def test_patches_lie_under_the_contact_at_their_offsets(found: xr.Dataset, scene
     assert all(abs(above(beside)) < 0.5 * above(0) for beside in (-9, -5, 5, 9))
 
 
+@pytest.mark.long
 def test_a_run_with_fields_goes_on_from_its_rows_bit_for_bit(
     fmu: Path,
     scene: Scene,
@@ -247,6 +248,7 @@ def test_a_run_with_fields_that_is_killed_again_and_again_writes_the_same_files(
     assert (read["tribofilm_map_1"].max(("y", "x_track")).diff("field_time") > 0.0).all()
 
 
+@pytest.mark.long
 def test_other_fields_are_another_run_and_a_result_without_them_is_not_finished(
     tmp_path: Path, coarse: list[str], capsys: pytest.CaptureFixture[str], no_pictures: None
 ) -> None:

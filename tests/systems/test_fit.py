@@ -226,6 +226,7 @@ def test_a_curve_at_time_0_and_repeated_times_are_points_of_one_run(scene: Scene
     assert 0.05 < friction < 0.2
 
 
+@pytest.mark.long
 def test_the_deterministic_level_corrects_the_fit_until_both_agree(
     scene: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -172,6 +172,7 @@ def test_the_report_says_what_is_assumed_where_the_file_has_no_rating(record: Re
     assert "ASSUMED, as the file has no table [rating]: micropitting_stage = 8, scuffing_stage = 10" in said
 
 
+@pytest.mark.long
 def test_the_report_gives_a_run_of_the_micropitting_test_its_class(tmp_path: Path) -> None:
     duty = {**CONSTANT, "torque": "28.79 N m", "duration": "40 s", "steps": [{"time": "20 s", "torque": "265 N m"}]}
     assembly = assembled(duty, stations=4)

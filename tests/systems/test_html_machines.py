@@ -60,6 +60,7 @@ def test_contacts_of_machines_that_are_solved_have_all_causes(tmp_path: Path) ->
     assert math.hypot(*film.values()) == approx(float(run.dataset["contact.h_c_error"].values[-1]), rel=1e-6)
 
 
+@pytest.mark.long
 def test_an_interrupted_machine_has_its_tables(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     save = Checkpoint.save
 

@@ -183,6 +183,7 @@ def test_a_killed_run_goes_on_to_the_same_rows(rig: list[str], capsys: pytest.Ca
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows knows no signals of this kind")
+@pytest.mark.long
 def test_an_interrupt_within_a_component_ends_the_run_after_the_step_and_it_goes_on(
     rig: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -294,6 +295,7 @@ def test_what_makes_no_sense_is_refused_with_a_sentence(
     assert not list(Path().rglob("result.nc"))
 
 
+@pytest.mark.long
 def test_isolated_fmus_run_the_rig_to_the_same_rows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
     assembly = reading.assemble(reading.read("mtm_rig"))

@@ -82,6 +82,7 @@ def test_a_ratio_without_a_unit_that_looks_like_per_cent_is_asked_back(capsys: p
     assert main([*sweep, "--srr", "10 %", "--fastest", "2", "--slowest", "1"]) in (0, 1)
 
 
+@pytest.mark.long
 def test_the_result_of_another_scene_is_not_replaced_without_force(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -65,6 +65,7 @@ def test_the_state_given_stays_as_it_was_and_usable():
     assert not any(array.flags.writeable for array in arrays)
 
 
+@pytest.mark.long
 def test_the_same_call_gives_the_same_bits():
     scene, fresh, op = cheap()
     once, again = (advance(scene, op, fresh, 10.0) for _ in range(2))

@@ -48,6 +48,7 @@ def wavy(mobility=300.0, wave=0.02, **changes):
     return replace(case, fitted=True, stress=2.0, depth=0.005, **changes), smooth, half_space
 
 
+@pytest.mark.long
 def test_every_algorithm_finds_the_same_film_over_waves():
     case, smooth, half_space = wavy()
     found = [outputs(solve(half_space, case, start(case, smooth), 5e-4, 2 * n)) for solve, n in METHODS.values()]

@@ -170,6 +170,7 @@ def test_the_solution_does_not_depend_on_the_start():
     assert np.abs(one.iterate.pressure - two.iterate.pressure).sum() < 1e-3 * case.problem.load
 
 
+@pytest.mark.long
 def test_time_steps_tend_to_the_steady_film():
     case = contact(4.0, 6.0, rough=0.2)
     steady = case.solve()

@@ -93,6 +93,7 @@ def on_grids():
     return films
 
 
+@pytest.mark.long
 def test_both_films_of_upwind_flow_converge_with_the_grid(on_grids):
     coarse, fine, finest = on_grids["upwind"]
     assert (np.log2((fine - coarse) / (finest - fine)) > 1.2).all()

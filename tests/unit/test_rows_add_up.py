@@ -89,6 +89,7 @@ def test_rows_add_up_while_a_film_follows_its_inputs_and_where_time_stands_still
         checked(now, outputs)
 
 
+@pytest.mark.long
 def test_friction_of_the_oil_neither_turns_nor_drops_where_blocks_turn_dry():
     scene, state, op = cheap(CHEAP | HALF_DRY | {"tribofilm.model": "none", "control.longest": "20 s"})
     state, outputs = advance(scene, op, state, 0.0)

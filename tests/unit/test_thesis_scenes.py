@@ -66,6 +66,7 @@ def first_minutes(srr: float) -> list[Outputs]:
     return rows
 
 
+@pytest.mark.long
 def test_the_film_covers_the_ball_at_once_and_ever_more_of_the_disc():
     """Figures 5-7 to 5-9: the clock's cover of the disc stands still from the first minutes on."""
     ball, disc = ([getattr(out, f"coverage_{i}") for out in first_minutes(-0.02)[1:]] for i in (1, 2))
