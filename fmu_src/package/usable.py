@@ -13,7 +13,7 @@ from contact_core.scene import Scene
 
 from ..variables import Variable, first_point
 
-_HALVINGS = 60  # of the interval in which a bound lies
+_HALVINGS = 30  # of the interval in which a bound lies: some 1e-9 of it
 _DIGITS = range(6, 18)  # of a bound: as few as are within the range
 
 
