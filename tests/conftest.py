@@ -42,8 +42,7 @@ def pytest_xdist_auto_num_workers() -> int:
 def pytest_configure(config: pytest.Config) -> None:
     """Compile the usual kernels once, while xdist's workers collect, instead of in each of them."""
     if config.getoption("numprocesses", None) and not hasattr(config, "workerinput"):
-        warm = "import contact_core as c; c.warm_up(c.Scene.from_toml('mtm_zddp'))"
-        process = subprocess.Popen([sys.executable, "-P", "-c", warm])
+        process = subprocess.Popen([sys.executable, "-P", str(Path(__file__).with_name("kernels.py"))])
         config.add_cleanup(process.wait)
 
 
