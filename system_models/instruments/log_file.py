@@ -4,8 +4,9 @@
     Step Time (s)  Rolling Speed (mm/s)  SRR (%)  Traction Coeff (-)
     0              100.1                 50.0     0.081
 
-A table begins with a line in which a column is known and ends with the first line that is no row of it. Cells are apart
-by tabs, semicolons or commas. A line "Step type	FILM	..." says what a step is.
+A table begins with a line in which a column is known and ends with the headers of another one or the title of a step;
+other lines within it are passed over and counted. Cells are apart by tabs, semicolons or commas. A line
+"Step type	FILM	..." says what a step is.
 """
 
 import math
@@ -23,6 +24,9 @@ _NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$")
 _CLOCK = re.compile(r"(\d+):([0-5]?\d):([0-5]?\d(?:[.,]\d+)?)$")  # hours, minutes, seconds
 _TITLE = re.compile(r"\s*step\b(?!\s*(time|type))", re.IGNORECASE)
 _KIND = re.compile(r"\s*step type\W+(\w+)", re.IGNORECASE)
+_LETTERS = re.compile(r"[^\W\d_]")
+_MARKS = {"nan", "inf", "-inf", "over", "under", "ol", "n/a", "na", "#n/a", "none", "null"}  # in place of a number
+_NOT_MEASURED = {-(10.0**n - 1.0) for n in range(1, 6)}  # -9, -99, ...: marks, among numbers of which none is negative
 _MAPPER = "SLIM Mapper Analysis File"  # first line of another kind of file of the same rigs
 
 
@@ -47,7 +51,7 @@ class Log:
     name: str
     steps: list[Step]
     left_out: list[str]  # sentences on columns, each once
-    outside: list[str] = field(default_factory=list)  # sentences on cells that cannot have been measured
+    outside: list[str] = field(default_factory=list)  # sentences on cells and lines that were not measured
 
     def taken(self) -> list[str]:
         """Return words on each column that is taken, each once."""
@@ -71,17 +75,36 @@ def read(path: Path, names: Mapping[str, tuple[str, str | None]]) -> Log:
     steps: list[Step] = []
     left: dict[str, None] = {}
     outside: dict[Column, list[str]] = {}
-    for title, kind, headers, rows in _tables(lines, mark, names):
+    marks: dict[Column, list[str]] = {}
+    passed: list[str] = []
+    for title, kind, headers, rows in _tables(lines, mark, names, passed):
         filled = [any(_NUMBER.match(row[i]) for row in rows if i < len(row)) for i in range(len(headers))]
         columns, sentences = log_columns.taken(headers, names, filled)
         left |= dict.fromkeys(sentences)
+        rows = _without_marks(columns, rows, marks)
         steps.append(Step(title, columns, [_row(cells, columns, outside) for cells in rows], kind))
     if not steps:
-        raise ContactError(
-            f"'{path}' has no table with a known column, such as 'Rolling Speed (mm/s)' or 'Traction Coeff (-)'. "
-            "Export it as text with headers, or name its columns by --column 'HEADER=QUANTITY [unit]'."
+        raise ContactError(f"'{path}' has {_why_nothing(lines, mark, names)}")
+    told = [_told(column, cells) for column, cells in outside.items()] + [
+        f"'{column.header}': {cells[0]} among numbers that are not negative counts as not measured: {len(cells)}."
+        for column, cells in marks.items()
+    ]
+    if passed:
+        told.append(f"Lines that are no rows of a table are passed over: {len(passed)}, such as '{passed[0].strip()}'.")
+    return Log(path.name, steps, list(left), told)
+
+
+def _why_nothing(lines: list[str], mark: str, names: Mapping[str, tuple[str, str | None]]) -> str:
+    header = next((line for line in lines if _is_header(line, mark, names)), None)
+    if header is not None:
+        return (
+            f"no row of numbers below '{header.strip()}': the first cell of a row is a number, or a time such as "
+            "01:30:00. Write times of other kinds as seconds."
         )
-    return Log(path.name, steps, list(left), [_told(column, cells) for column, cells in outside.items()])
+    return (
+        "no table with a known column, such as 'Rolling Speed (mm/s)' or 'Traction Coeff (-)'. "
+        "Export it as text with headers, or name its columns by --column 'HEADER=QUANTITY [unit]'."
+    )
 
 
 def _told(column: Column, cells: list[str]) -> str:
@@ -105,31 +128,69 @@ def _in_seconds(cell: str) -> str:
 
 
 def _tables(
-    lines: list[str], mark: str, names: Mapping[str, tuple[str, str | None]]
+    lines: list[str], mark: str, names: Mapping[str, tuple[str, str | None]], passed: list[str]
 ) -> Iterator[tuple[str, str, list[str], list[list[str]]]]:
-    """Yield title and kind of the step, headers and rows of each table that has rows."""
+    """Yield title and kind of the step, headers and rows of each table that has rows.
+
+    Lines with numbers that are rows of none are added to `passed`, and others between two rows.
+    """
     title, kind, headers, rows = "", "", [""], list[list[str]]()
-    for line in [*lines, ""]:
+    between: list[str] = []
+    for line in [*lines, "Step"]:  # as if another one began
         own = [cell.strip().strip('"') for cell in line.split(mark)]
         cells = [*map(_in_seconds, own)]
-        if headers != [""] and _is_row(cells):
+        if headers != [""] and _is_row(cells) and not (between and len(cells) != len(rows[-1])):
             if not rows:
                 headers = log_columns.with_units(headers, ["s" if _CLOCK.match(cell) else "" for cell in own])
             rows.append(cells)
+            passed += filter(str.strip, between)
+            between = []
             continue
         bare = [cell.strip("[]()") for cell in cells]
         if headers != [""] and not rows and log_columns.are_units(bare):
             headers = log_columns.with_units(headers, bare)
             continue
+        begins = _KIND.match(line) or _is_header(line, mark, names) or _TITLE.match(line) or _are_words(cells)
+        if rows and not begins:
+            between.append(line)
+            continue
+        if not begins and _is_row(cells):
+            passed.append(line)
         if rows:
             yield title, kind, headers, rows
-        headers, rows = [""], []
+        passed += (each for each in between if _is_row(each.split(mark)))
+        headers, rows, between = [""], [], []
         if found := _KIND.match(line):  # before headers: FILM is a name of a column, too
             kind = found[1]
         elif _is_header(line, mark, names):
             headers = cells
         elif _TITLE.match(line):
             title, kind = " ".join(line.split()), ""
+
+
+def _are_words(cells: list[str]) -> bool:
+    """Return True for the headers of another table: several cells, different, without a number or a mark for none."""
+    full = {cell.casefold() for cell in cells if cell}
+    return (
+        len(full) > 1
+        and not any(_NUMBER.match(cell) or not _LETTERS.search(cell) for cell in full)
+        and not full & _MARKS
+    )
+
+
+def _without_marks(
+    columns: list[Column | None], rows: list[list[str]], marks: dict[Column, list[str]]
+) -> list[list[str]]:
+    """Return the rows with empty cells for -9, -99, ... in columns without another negative number."""
+    rows = [list(row) for row in rows]
+    for i, column in enumerate(columns):
+        numbers = [(row, float(row[i].replace(",", "."))) for row in rows if i < len(row) and _NUMBER.match(row[i])]
+        marked = [row for row, number in numbers if number in _NOT_MEASURED]
+        if column is not None and 0 < len(marked) == sum(number < 0.0 for _, number in numbers) < len(numbers):
+            marks[column] = [*marks.get(column, []), *(row[i] for row in marked)]
+            for row in marked:
+                row[i] = ""
+    return rows
 
 
 def _refuse_mapper(path: Path, lines: list[str]) -> None:

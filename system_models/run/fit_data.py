@@ -86,8 +86,14 @@ def read(path: Path, scene: Scene, level: str) -> Measured:
     if not found:
         raise SceneError(f"{path}: no row has a measured number. Give a column such as 'tribofilm_1 [nm]'.")
     for name in {row[0] for row in found if MEASURABLE[row[0]].minimum >= 0.0}:  # scatter may bring some below 0
-        if all(row[3] < 0.0 for row in found if row[0] == name):
+        least, most = (extreme(row[3] for row in found if row[0] == name) for extreme in (min, max))
+        if most < 0.0:
             raise SceneError(f"{path}: every '{name}' is below 0, which it cannot be. Check its sign.")
+        if least < -most:
+            raise SceneError(
+                f"{path}: {name} = {least:g} is further below 0 than any other is above it, which scatter does not do. "
+                "Leave cells empty where nothing was measured."
+            )
     tests = tuple(sorted({row[1] for row in found}, key=_order))
     names = list(dict.fromkeys(row[0] for row in found))
     found.sort(key=lambda row: (names.index(row[0]), tests.index(row[1]), row[2]))

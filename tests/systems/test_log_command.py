@@ -82,6 +82,7 @@ EHD = "Speed (m/s),Film (nm),SRR\n0.1,50.5,0\n1,240,0\n"
         ("Load (N)\tFilm (nm)\n1,234\t5.5\n", [], "decimals or of thousands"),
         ("Load (V)\tFilm (nm)\n1\t5.5\n", [], "'Load (V)' cannot be load"),
         ("Mass (g)\tHeight (nm)\n1\t5.5\n", [], "no table with a known column"),
+        ("Time (s)\tLoad (N)\n2024-05-01T10:00\t5\n", [], "no row of numbers below 'Time (s)\tLoad (N)'"),
     ],
 )
 def test_what_a_log_does_not_say_is_asked_back(
@@ -224,12 +225,18 @@ def test_marks_of_what_was_not_measured_reach_neither_duty_nor_data(cells) -> No
     ("rows", "said"),
     [
         (
-            "0,-9,0.1\n1,50,0.1\n2,50,0.1\n",
-            "'Load (N)': cells that are not from 0 to 100000 N, as load is, count as not measured: 1, such as -9.",
+            "0,-8,0.1\n1,50,0.1\n2,50,0.1\n",
+            "'Load (N)': cells that are not from 0 to 100000 N, as load is, count as not measured: 1, such as -8.",
         ),
         ("0,-9,0.1\n1,50,0.1\n2,50,0.1\n", "speed or temperature that the contact takes are left out: 1."),
         ("0,50,1e30\n1,50,-0.1\n2,50,0.1\n", "as friction_coefficient is, count as not measured: 2, such as 1e30."),
-        ("-9,50,0.1\n1,50,0.1\n2,50,0.1\n", "as time is, count as not measured: 1, such as -9."),
+        ("-8,50,0.1\n1,50,0.1\n2,50,0.1\n", "as time is, count as not measured: 1, such as -8."),
+        ("0,50,-9\n1,50,0.1\n2,50,-99\n", "-9 among numbers that are not negative counts as not measured: 2."),
+        *(
+            (f"0,50,0.1\n{line}\n2,50,0.1\n3,50,0.1\n", f"passed over: 1, such as '{line}'.\n")
+            for line in ("nan,50,0.1", ",50,0.1", "OVER,OL,0.2", "Paused by operator", "# pause", "nan,nan,nan")
+        ),
+        ("0,50,0.1\n1,50,0.1\n\nUnknown,Header\n1,2\n3,4\n", "passed over: 2, such as '1,2'."),
     ],
 )
 def test_cells_that_cannot_have_been_measured_are_counted(
@@ -295,4 +302,7 @@ def test_why_there_is_no_duty_is_told(
 def test_data_to_fit_have_a_range_too(tmp_path: Path) -> None:
     (tmp_path / "data.csv").write_text("time [s],friction_coefficient [1]\n0,0.1\n1,1e30\n")
     with pytest.raises(SceneError, match=r"friction_coefficient = 1e\+30 .* at most 10"):
+        read(tmp_path / "data.csv", Scene.from_toml("mtm_zddp"), "regression")
+    (tmp_path / "data.csv").write_text("time [s],friction_coefficient [1]\n0,0.1\n1,-9\n2,-0.01\n")
+    with pytest.raises(SceneError, match="friction_coefficient = -9 is further below 0 than any other is above it"):
         read(tmp_path / "data.csv", Scene.from_toml("mtm_zddp"), "regression")
