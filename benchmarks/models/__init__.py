@@ -35,6 +35,8 @@ drag            u -> F, dF_du; F = -c u - q u |u| with c = 1, q = 2, worked out 
 gain            u -> y = a u + b + c u^2; build("gain", folder, a=, b=, c=, unit_u=, unit_y=).
 millimetre      gain with u in mm and y in N, a = 10. celsius, kelvin: in degC and K. mismatch: both in s.
 echo            real_in, integer_in, boolean_in, string_in -> real_out, ...
+arrays          FMI 3: u [3] -> y with y' = u; z [2, 2] = gains u, column by column; counted = counts + 1 [3], Integer;
+                flagged = not flags [2, 2], Boolean.
 
 Models that misbehave; all but the last two integrate y' = u from y0, exactly:
 

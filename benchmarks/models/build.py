@@ -89,12 +89,14 @@ def _header(model: Model, variant: Variant) -> str:
     """variables.h, apart from the token."""
     numbers = [v for v in model.variables if v.kind != "String"]
     strings = [v for v in model.variables if v.kind == "String"]
-    count = {c: sum(v.causality == c for v in numbers) for c in ("parameter", "input")}
-    starts = ", ".join(repr(float(v.start or 0.0)) for v in numbers)
+    every = [v for v in model.variables for _ in range(v.size)]
+    count = {c: sum(v.size for v in numbers if v.causality == c) for c in ("parameter", "input")}
+    starts = ", ".join(repr(float(start or 0.0)) for v in numbers for start in v.starts)
+    named = zip(model.variables, model.references, strict=False)
     texts = ", ".join(f'"{v.start or ""}"' for v in strings)
     lines = [
-        f"#define N_VARIABLES {len(model.variables)}",
-        f"#define N_NUMBERS {len(numbers)}",
+        f"#define N_VARIABLES {len(every)}",
+        f"#define N_NUMBERS {len(every) - len(strings)}",
         f"#define N_STRINGS {len(strings)}",
         f"#define N_PARAMETERS {count['parameter']}",
         f"#define N_INPUTS {count['input']}",
@@ -105,9 +107,10 @@ def _header(model: Model, variant: Variant) -> str:
         f"#define INTERPOLATES {int(variant.interpolates)}",
         f"#define INTERMEDIATE {int(variant.intermediate)}",
         f"#define HAS_EVENT_MODE {int(model.events)}",
-        f"enum {{ {', '.join(f'V_{v.name}' for v in model.variables)} }};",
-        f'#define KIND "{"".join(v.kind[0] for v in model.variables)}"',
-        f'#define CAUSALITY "{"".join(v.causality[0] for v in model.variables)}"',
+        f"enum {{ {', '.join(f'V_{v.name} = {reference}' for v, reference in named)} }};",
+        f'#define KIND "{"".join(v.kind[0] for v in every)}"',
+        f'#define CAUSALITY "{"".join(v.causality[0] for v in every)}"',
+        f"static const unsigned SIZE[] = {{{', '.join(str(v.size) for v in every)}}};",
         f"static const double START[] = {{{starts or '0.0'}}};",
         f"static const char *const START_TEXT[] = {{{texts or '0'}}};",
         model.header,

@@ -278,6 +278,26 @@ def echo(events: bool = False) -> Model:
     return Model("echo", variables, events=events, text="Each output is the input of its type")
 
 
+def arrays(events: bool = False) -> Model:
+    row, square = {"shape": (3,)}, {"shape": (2, 2)}
+    return Model(
+        "arrays",
+        (
+            parameter("gains", None, (1.0, 2.0, 3.0, 4.0), **square),
+            inlet("u", None, 1.0, (0.5, 1.0, 1.5), **row),
+            inlet("counts", None, start=(10, 20, 30), kind="Integer", **row),
+            inlet("flags", None, start=(True, False, False, True), kind="Boolean", **square),
+            output("y", None, 1.0, **row),
+            output("z", None, 1.0, ("u", "gains"), **square),
+            output("counted", None, kind="Integer", needs=("counts",), **row),
+            output("flagged", None, kind="Boolean", needs=("flags",), **square),
+        ),
+        memory=3,
+        events=events,
+        text="Arrays of one and of two dimensions",
+    )
+
+
 def _integrator(source: str, *own: Variable, text: str, **more: Any) -> Model:
     """y' = u and something that goes wrong."""
     line = parameter("y0", "m", 0.0), inlet("u", "m/s", 1.0), output("y", "m", 1.0, ("y0",))
@@ -370,6 +390,7 @@ MODELS: dict[str, Callable[..., Model]] = {
         celsius,
         kelvin,
         echo,
+        arrays,
         discard,
         terminator,
         early,

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from itertools import accumulate
+from math import prod
 from typing import Any
 from xml.etree import ElementTree as ET
 
@@ -41,6 +43,16 @@ class Variable:
     kind: str = "Real"
     needs: tuple[str, ...] = ()
     text: str = ""
+    shape: tuple[int, ...] = ()  # of an array, in FMI 3
+
+    @property
+    def size(self) -> int:
+        return prod(self.shape)
+
+    @property
+    def starts(self) -> list[Any]:
+        """Start values of all elements."""
+        return list(self.start) if isinstance(self.start, tuple) else [self.start] * self.size
 
     @property
     def variability(self) -> str:
@@ -89,6 +101,11 @@ class Model:
         ranked = sorted(self.variables, key=lambda v: (v.kind == "String", order[v.causality]))
         object.__setattr__(self, "variables", tuple(ranked))
 
+    @property
+    def references(self) -> list[int]:
+        """Value references: the elements of an array count as numbers of their own."""
+        return list(accumulate((v.size for v in self.variables), initial=0))
+
     def starting(self, start: dict[str, Any]) -> Model:
         """The same model with other start values."""
         unknown = set(start) - {v.name for v in self.variables if v.causality != "output"}
@@ -117,6 +134,8 @@ def describe(name: str, token: str, model: Model, variant: Variant) -> bytes:
 
 
 def _text(value: Any) -> str:
+    if isinstance(value, tuple):
+        return " ".join(map(_text, value))
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
@@ -197,7 +216,8 @@ def _fmi3(name: str, token: str, model: Model, variant: Variant) -> ET.Element:
     )
     _units(root, model)
     variables = _element(root, "ModelVariables")
-    for reference, v in enumerate(model.variables):
+    references = model.references
+    for reference, v in zip(references, model.variables, strict=False):
         typed = _element(
             variables,
             FMI3_TYPES[v.kind],
@@ -213,11 +233,13 @@ def _fmi3(name: str, token: str, model: Model, variant: Variant) -> ET.Element:
         )
         if v.kind == "String" and v.start is not None:
             _element(typed, "Start", value=v.start)
+        for length in v.shape:
+            _element(typed, "Dimension", start=length)
     _element(
         variables,
         "Float64",
         name="time",
-        valueReference=len(model.variables),
+        valueReference=references[-1],
         causality="independent",
         variability="continuous",
     )
@@ -226,8 +248,8 @@ def _fmi3(name: str, token: str, model: Model, variant: Variant) -> ET.Element:
         for i, v in enumerate(model.variables):
             if v.causality == "output":
                 known = _dependencies(model, i, group == "InitialUnknown")
-                listed = " ".join(map(str, known)) if variant.dependencies else None
-                _element(structure, group, valueReference=i, dependencies=listed)
+                listed = " ".join(str(references[k]) for k in known) if variant.dependencies else None
+                _element(structure, group, valueReference=references[i], dependencies=listed)
     return root
 
 

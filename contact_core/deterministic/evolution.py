@@ -25,7 +25,9 @@ from .transient import longest_instant
 _THIN = 3  # every third node along x and y is enough to tell the change of geometry
 _GROOVE = 0.2  # weight of a groove's depth among changes of geometry
 
-_LEAST = {"load": 1e-9, "speed_1": 1e-30, "speed_2": 1e-30, "spin": 1e-30}  # N, m/s, 1/s: less is none, see below
+# N, m/s, 1/s: less is none. The kernels divide by the pressure of the load; at such speeds a film would be solved that
+# is thinner than an atom, with slopes by the speed that are rounding
+_LEAST = {"load": 1e-9, "speed_1": 1e-30, "speed_2": 1e-30, "spin": 1e-30}
 
 
 def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
@@ -61,7 +63,7 @@ def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, O
 
 
 def _without_next_to_nothing(case: Case) -> Case:
-    """Return the case without a load or speeds so small that their powers are beyond the numbers there are."""
+    """Return the case without a load or speeds too small to be told from none."""
     none = {name: 0.0 for name, least in _LEAST.items() if 0.0 < abs(getattr(case.op, name)) < least}
     return replace(case, op=replace(case.op, **none)) if none else case
 

@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 
 from .hertz import hertz_point
 
+# of Moes' numbers: beyond them, where films are far from any other length, powers of theirs are no floats any more
+_LEAST_LOAD, _LEAST_LUBRICANT, _LEAST_SPEED = 1e-30, 1e-20, 1e-200
+
 
 def at_no_pressure(
     viscosity: Callable[[NDArray[np.float64], float], NDArray[np.float64]], temperature: float
@@ -133,7 +136,7 @@ def _moes_numbers(
     load: float, speed: float, viscosity: float, pressure_coefficient: float, radius: float, modulus: float
 ) -> tuple[float, float, float]:
     """Return Moes' load M, lubricant L and speed U, on the sum of surface speeds and radius_x."""
-    u = 2.0 * viscosity * speed / (modulus * radius)
+    u = max(2.0 * viscosity * speed / (modulus * radius), _LEAST_SPEED)
     return load / (modulus * radius**2) * u**-0.75, pressure_coefficient * modulus * u**0.25, u
 
 
@@ -145,6 +148,7 @@ def moes_film(load: float, lubricant: float, ratio: float = 1.0) -> float:
     Source: as `nijenbanning_venner_moes`.
     """
     rigid_iso, elastic_iso, rigid_piezo, elastic_piezo, unloaded = _moes_factors(ratio)
+    load, lubricant = min(max(load, _LEAST_LOAD), 1.0 / _LEAST_LOAD), max(lubricant, _LEAST_LUBRICANT)
     rigid_iso /= load**2
     elastic_iso *= load ** (-2 / 15)
     rigid_piezo *= lubricant ** (2 / 3)

@@ -39,8 +39,8 @@ def run(fmu: Fmu, notebook: Path) -> Answer:
         FirstRun(rows, _has_child()).write(notebook)
         instance.terminate()
     done = f"Instantiated, initialised, {STEPS} steps of {fmu.step:g} s, terminated, freed."
-    if fmu.unread:
-        return noted(f"{done} Arrays, clocks and binary data are not read here: {some(fmu.unread)}.")
+    if fmu.left_out:
+        return noted(f"{done} Arrays, clocks and binary data are neither set nor read here: {some(fmu.left_out)}.")
     return passed(done)
 
 

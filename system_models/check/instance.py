@@ -80,7 +80,8 @@ class Fmu:
         self.library = FMU3Checked if self.description.fmiVersion.startswith("3") else FMU2Checked
         outputs = [v for v in variables if v.causality == "output"]
         self.outputs = [v for v in outputs if is_readable(v)]
-        self.unread = [v.name for v in outputs if not is_readable(v)]  # arrays, clocks and binary data of FMI 3
+        ends = [v for v in variables if v.causality in ("input", "output")]
+        self.left_out = [v.name for v in ends if not is_readable(v)]  # arrays, clocks and binary data of FMI 3
         self.inputs = [v for v in variables if v.causality == "input" and is_real(v) and is_readable(v)]
         self.start_time, self.step = _experiment(self.description)
         self._complaints = _complaints()

@@ -54,7 +54,8 @@ def run(arguments: argparse.Namespace) -> int:
                 f"'{arguments.system}' does not say simulate.{key}. Add it, or --set simulate.{key}=VALUE."
             )
     if "outputs" not in settings and (left_out := system.left_out()):
-        note(f"Not recorded: {', '.join(left_out)}, which are no numbers. simulate.outputs can name texts.")
+        names = ", ".join(left_out)
+        note(f"Not recorded: {names}, which are no numbers, or too many. simulate.outputs can name texts.")
     folder = output_folder(arguments.out, arguments.system.stem)
     return carry_out(system, settings, arguments.system.stem, folder, arguments.resume, arguments.force, _report)
 

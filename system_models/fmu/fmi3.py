@@ -18,7 +18,7 @@ from . import messages
 from .errors import CouplingError
 from .instance import Instance, Reals
 from .loading import load
-from .model import Model
+from .model import Element, Model
 
 log = logging.getLogger(__name__)
 
@@ -33,10 +33,15 @@ class State(NamedTuple):
 
 
 class _Shared(NamedTuple):
-    """Variables of one type: where they stand among Reals, and the memory that the FMU reads and writes."""
+    """Variables of one type: where they stand among Reals, and the memory that the FMU reads and writes.
+
+    Of an array it has all elements; own: where in it the variables stand; alone: whether there are no others.
+    """
 
     type: str
     places: NDArray[np.intp] | slice
+    own: NDArray[np.intp] | slice
+    alone: bool
     references: Any
     values: NDArray[Any]
     buffer: Any
@@ -73,6 +78,7 @@ class Fmi3Instance(Instance):
         self._folder = folder
         # values set and phases begun up to the first step, for an FMU that is begun again
         self._begun: list[tuple[Callable[..., None], tuple[Any, ...]]] = []
+        self._starts: dict[str, list[Any]] = {}  # of arrays, with the elements set before the initialisation
         self._load()
         try:
             self._create()
@@ -111,9 +117,10 @@ class Fmi3Instance(Instance):
             earlyReturnAllowed=self._early_return,
             logMessage=self._on_message,
             intermediateUpdate=self._on_intermediate_update if self.interpolates else None,
-            requiredIntermediateVariables=list(self.inputs.references) if self.interpolates else None,
+            requiredIntermediateVariables=list(dict.fromkeys(self.inputs.references)) if self.interpolates else None,
         )
         self._component = self._fmu.component
+        self._gives = False  # before it is being initialised, an FMU gives no values
 
     def _leave_out_event_mode(self, reason: Exception) -> None:
         """Begin again without event mode, up to where the FMU is. Raises CouplingError for `reason` if that fails."""
@@ -144,7 +151,7 @@ class Fmi3Instance(Instance):
         if set_requested and self._refused_input is None:
             self.inputs.values[:] = hold.value(self._polynomial, time - self._start)
             try:
-                self.set_inputs()
+                self._set_inputs()
             except FMICallException as error:  # nothing may be raised through the FMU
                 self._refused_input = error
 
@@ -155,20 +162,26 @@ class Fmi3Instance(Instance):
     def set_inputs(self) -> None:
         """Give the FMU the values of `inputs`."""
         for part in self._set:
+            if not part.alone:
+                self._call("Get", part)
+        self._set_inputs()
+
+    def _set_inputs(self) -> None:
+        for part in self._set:
             if part.values is not self.inputs.values:
-                part.values[:] = self.inputs.values[part.places]
-            count = len(part.values)
-            setter = getattr(self._fmu, f"fmi3Set{part.type}")
-            setter(self._component, part.references, count, part.buffer, count)
+                part.values[part.own] = self.inputs.values[part.places]
+            self._call("Set", part)
 
     def _get_outputs(self) -> None:
         self._end_event()
         for part in self._got:
-            count = len(part.values)
-            getter = getattr(self._fmu, f"fmi3Get{part.type}")
-            getter(self._component, part.references, count, part.buffer, count)
+            self._call("Get", part)
             if part.values is not self.outputs.values:
-                self.outputs.values[part.places] = part.values
+                self.outputs.values[part.places] = part.values[part.own]
+
+    def _call(self, what: str, part: _Shared) -> None:
+        function = getattr(self._fmu, f"fmi3{what}{part.type}")
+        function(self._component, part.references, len(part.references), part.buffer, len(part.values))
 
     def _do_step(self, time: float, size: float) -> float:
         self.event = False
@@ -221,14 +234,22 @@ class Fmi3Instance(Instance):
             self._fmu.fmi3EnterStepMode(self._component)
 
     def get(self, variable: ModelVariable) -> Any:
-        """Return the value of a variable of any type, of an array a list, row by row."""
+        """Return the value of a variable of any type."""
         self._end_event()
         return self._value(variable)
 
     def _value(self, variable: ModelVariable) -> Any:
-        count = prod(variable.shape)
-        found = getattr(self._fmu, f"get{_access(variable)}")([variable.valueReference], count)
-        return found if variable.dimensions else found[0]
+        whole, place = self._place(variable)
+        return self._values(whole)[place]
+
+    def _values(self, variable: ModelVariable) -> list[Any]:
+        """Return the value of a variable, or of an array those of all elements."""
+        found = getattr(self._fmu, f"get{_access(variable)}")([variable.valueReference], prod(variable.shape))
+        return list(found)
+
+    def _place(self, variable: ModelVariable) -> Element:
+        """Return the array in which a variable is got and set, or itself, and where it stands there."""
+        return self.model.elements.get(variable.name, Element(variable, 0))
 
     def set(self, variable: ModelVariable, value: Any) -> None:
         """Set a variable of any type: a discrete one, during the simulation, in event mode if the value is another."""
@@ -241,7 +262,18 @@ class Fmi3Instance(Instance):
         self._put(variable, value)
 
     def _put(self, variable: ModelVariable, value: Any) -> None:
-        getattr(self._fmu, f"set{_access(variable)}")([variable.valueReference], [value])
+        whole, place = self._place(variable)
+        values = self._before(whole) if whole.dimensions else [value]
+        values[place] = value
+        getattr(self._fmu, f"set{_access(variable)}")([variable.valueReference], values)
+
+    def _before(self, array: ModelVariable) -> list[Any]:
+        """Return the values of an array, which is set as a whole."""
+        if self._gives:
+            return self._values(array)
+        if array.name not in self._starts:
+            self._starts[array.name] = self.model.starts(array)
+        return self._starts[array.name]
 
     def enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
         """Go from the start values to the initialisation."""
@@ -250,6 +282,7 @@ class Fmi3Instance(Instance):
 
     def _enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
         self._fmu.enterInitializationMode(tolerance=tolerance, startTime=time, stopTime=stop)
+        self._gives = True
 
     def exit_initialization(self) -> None:
         """Go from the initialisation to the first step."""
@@ -303,18 +336,31 @@ class Fmi3Instance(Instance):
 
 
 def _shared(reals: Reals, model: Model) -> list[_Shared]:
-    """Return the Reals by type: those of Float64 alone as they are, any other in memory of its own."""
+    """Return the Reals by type: those of Float64 alone as they are, arrays and any other in memory of its own."""
     types = [model.variables[name].type for name in reals.names]
-    if set(types) <= {"Float64"}:
-        return [_Shared("Float64", slice(None), reals.references, reals.values, reals.buffer)] if types else []
+    if set(types) <= {"Float64"} and not model.elements.keys() & set(reals.names):
+        every = slice(None)
+        return [_Shared("Float64", every, every, True, reals.references, reals.values, reals.buffer)] if types else []
     found = []
     for name, of_c in (("Float64", c_double), ("Float32", c_float)):
         places = np.flatnonzero([own == name for own in types])
-        values = np.zeros(len(places), of_c)
-        buffer = (of_c * len(places)).from_buffer(values.data)
-        references = (fmi3ValueReference * len(places))(*(reals.references[n] for n in places))
-        found.append(_Shared(name, places, references, values, buffer))
-    return [part for part in found if len(part.values)]
+        if len(places):
+            found.append(_of_type(name, of_c, places, [reals.names[n] for n in places], model))
+    return found
+
+
+def _of_type(name: str, of_c: Any, places: NDArray[np.intp], names: list[str], model: Model) -> _Shared:
+    """Return the Reals of one type, and with those that are elements of arrays the other elements."""
+    at = [model.elements.get(own, Element(model.variables[own], 0)) for own in names]
+    first, count = dict[int, int](), 0
+    for whole, _ in at:
+        if whole.valueReference not in first:
+            first[whole.valueReference] = count
+            count += prod(whole.shape)
+    own = np.array([first[whole.valueReference] + place for whole, place in at])
+    values = np.zeros(count, of_c)
+    references = (fmi3ValueReference * len(first))(*first)
+    return _Shared(name, places, own, count == len(names), references, values, (of_c * count).from_buffer(values.data))
 
 
 def _access(variable: ModelVariable) -> str:

@@ -1,21 +1,41 @@
 """An FMU as its modelDescription.xml has it, before anything runs."""
 
+from collections.abc import Callable
+from copy import copy
 from functools import cached_property
+from math import prod
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import fmpy
+import numpy as np
 from fmpy.model_description import ModelDescription, ModelVariable
 from lxml import etree
 
 from .archive import DESCRIPTION, opened
 from .errors import CouplingError, FmuError
+from .kinds import kind
+
+MOST_ELEMENTS = 2**16  # of an array that is exchanged
 
 _TRUE = ("true", "1")
+# how a start value is read, by kind
+_READ: dict[str, Callable[[str], Any]] = {"real": float, "integer": int, "boolean": _TRUE.__contains__}
+
+
+class Element(NamedTuple):
+    """Where an element of an array stands, counted row by row."""
+
+    array: ModelVariable
+    place: int
 
 
 class Model:
-    """An FMU for co-simulation, FMI 2.0 or 3.0."""
+    """An FMU for co-simulation, FMI 2.0 or 3.0.
+
+    variables: by name, of an array its elements y[1,1], y[1,2], ...; one of more than MOST_ELEMENTS stands for itself.
+    arrays: the names of the elements by that of the array. elements: where each stands.
+    """
 
     def __init__(self, name: str, path: str | Path) -> None:
         self.name, self.path = name, Path(path)
@@ -29,6 +49,10 @@ class Model:
         self.description = _description(name, self.path)
         self.variables: dict[str, ModelVariable] = {v.name: v for v in self.description.modelVariables}
         self._complete(root)
+        self.arrays: dict[str, list[str]] = {}
+        self.elements: dict[str, Element] = {}
+        for array in [v for v in self.variables.values() if v.dimensions and prod(v.shape) <= MOST_ELEMENTS]:
+            self._take_apart(array)
 
     @property
     def fmi3(self) -> bool:
@@ -66,7 +90,8 @@ class Model:
     @property
     def declared_dependencies(self) -> dict[str, frozenset[str]]:
         """The same of those outputs that do say."""
-        silent = {unknown.variable.name for unknown in self.description.outputs if unknown.dependencies is None}
+        unknowns = [unknown for unknown in self.description.outputs if unknown.dependencies is None]
+        silent = {name for unknown in unknowns for name in self._names(unknown.variable)}
         return {name: inputs for name, inputs in self.dependencies.items() if name not in silent}
 
     @cached_property
@@ -90,13 +115,48 @@ class Model:
                 if getattr(variable, name) is None and variable.declaredType is not None:
                     setattr(variable, name, getattr(variable.declaredType, name))
 
+    def _take_apart(self, array: ModelVariable) -> None:
+        """Put the elements of an array in its place."""
+        del self.variables[array.name]
+        names = [f"{array.name}[{','.join(str(i + 1) for i in index)}]" for index in np.ndindex(*array.shape)]
+        for place, name in enumerate(names):
+            if name in self.variables:
+                raise CouplingError(
+                    f"The FMU '{self.name}' has an array '{array.name}' and another variable '{name}', the name of "
+                    "one of its elements. Export it with other names."
+                )
+            element = copy(array)
+            element.name, element.dimensions, element.shape = name, [], ()
+            self.variables[name], self.elements[name] = element, Element(array, place)
+        self.arrays[array.name] = names
+
+    def starts(self, array: ModelVariable) -> list[Any]:
+        """Return the start values of all elements of an array. Raises CouplingError if its description lacks them."""
+        count, read = len(self.arrays[array.name]), _READ.get(kind(array))
+        try:
+            found = [read(word) for word in str(array.start).split()] if read else []
+        except ValueError:
+            found = []
+        if len(found) not in (1, count):
+            raise CouplingError(
+                f"An element of '{self.name}.{array.name}' cannot be set before the initialisation, because the start "
+                f"values of the other {count - 1} are not known: start = {array.start!r}. Leave it out, or export the "
+                "FMU with a start value of every element."
+            )
+        return found if len(found) == count else found * count
+
     def _declared(self, unknowns: list[Any], inputs: frozenset[str]) -> dict[str, frozenset[str]]:
         return {
-            unknown.variable.name: inputs
+            name: inputs
             if unknown.dependencies is None
-            else inputs & {known.name for known in unknown.dependencies}
+            else inputs & {own for known in unknown.dependencies for own in self._names(known)}
             for unknown in unknowns
+            for name in self._names(unknown.variable)
         }
+
+    def _names(self, variable: ModelVariable) -> list[str]:
+        """Return the name of a variable, or of an array those of its elements."""
+        return self.arrays.get(variable.name, [variable.name])
 
 
 def _description(name: str, path: Path) -> ModelDescription:

@@ -114,8 +114,7 @@ class Coupled:
         """Return the value of a variable of any type."""
         instance = self.instances[port.model.name]
         with self._named(instance, f"to give '{port.name}'"):
-            found = instance.get(port.variable)
-            return found if port.place is None else found[port.place]
+            return instance.get(port.variable)
 
     def set_scheduled(self, times: Callable[[float], bool]) -> bool:
         """Set the inputs whose schedule has values at such times, to the last of them, and say if there are any."""

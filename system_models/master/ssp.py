@@ -47,12 +47,14 @@ def export_ssp(
     """Write a system and its FMUs into an .ssp file, and return its path.
 
     stop_time and step_size [s] are proposals to its importers; without step_size OMSimulator cannot read the file.
-    Raises CouplingError if a schedule has more than a start value, or if the file cannot be written.
+    Raises CouplingError if a schedule has more than a start value, for elements of arrays that are connected or set,
+    and if the file cannot be written.
     """
     path = Path(path)
     for name, time in (("stop_time", stop_time), ("step_size", step_size)):
         if time is not None and not (math.isfinite(time) and time > 0.0):
             raise CouplingError(f"{name} = {time!r} must be a time above 0 s. Give one, or leave it out.")
+    _check_arrays(system)
     sources = _sources(system.models.values())
     root = _structure(system, path.stem, stop_time, step_size, sources)
     text = ElementTree.tostring(root, "utf-8", xml_declaration=True)
@@ -122,9 +124,17 @@ def _tag(name: str) -> str:
 def _ports(system: System, model: Model) -> list[Port]:
     """Return the outputs that can be recorded and whatever is connected; importers stumble over inputs that are not."""
     ends = [port for c in system.connections for port in (c.source, c.target)]
-    found = (port for port in (*system.outputs(None), *ends) if port.place is None)  # SSP 1.0 has no arrays
-    ports = {port.name: port for port in found if port.model is model}
+    found = [port for port in system.outputs(None) if port.variable.name not in port.model.elements]
+    ports = {port.name: port for port in (*found, *ends) if port.model is model}
     return [ports[name] for name in sorted(ports)]
+
+
+def _check_arrays(system: System) -> None:
+    """Raise CouplingError for elements of arrays that are connected or set: SSP 1.0 has none."""
+    names = [name for c in system.connections for name in (c.source.name, c.target.name)]
+    for port in map(system.port, [*names, *system.parameters, *system.schedule]):
+        if port.variable.name in port.model.elements:
+            raise CouplingError(f"'{port.name}' is an element of an array, which SSP 1.0 cannot name. Leave it out.")
 
 
 def _constant(name: str, steps: list[tuple[float, Value]]) -> Value:

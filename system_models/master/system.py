@@ -3,19 +3,18 @@
 import math
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from fmpy.model_description import ModelVariable
 
 from contact_core.scene.toml import did_you_mean
 
 from ..fmu.errors import CouplingError
 from ..fmu.kinds import discrete, kind
-from ..fmu.model import Model
+from ..fmu.model import MOST_ELEMENTS, Model
 from . import unit_checks
 
 Value = float | int | bool | str
@@ -30,28 +29,16 @@ class Port:
 
     model: Model
     variable: ModelVariable
-    place: int | None = None  # of an array the element, counted row by row
 
     @property
     def name(self) -> str:
-        """Its name in the system; indices of an element begin at 1."""
-        whole = f"{self.model.name}.{self.variable.name}"
-        if self.place is None:
-            return whole
-        index = np.unravel_index(self.place, self.variable.shape)
-        return f"{whole}[{','.join(str(i + 1) for i in index)}]"
+        """Its name in the system."""
+        return f"{self.model.name}.{self.variable.name}"
 
     @property
     def kind(self) -> str:
-        """real, integer, boolean or string; element of an array, which is recorded only."""
-        return kind(self.variable) if self.place is None else "element"
-
-    @property
-    def elements(self) -> "list[Port]":
-        """Itself, or the elements of an array."""
-        if not self.variable.dimensions:
-            return [self]
-        return [replace(self, place=place) for place in range(math.prod(self.variable.shape))]
+        """real, integer, boolean or string; array, one too large to be exchanged by its elements."""
+        return "array" if self.variable.dimensions else kind(self.variable)
 
     @property
     def continuous(self) -> bool:
@@ -160,6 +147,11 @@ class System:
                 f"and a variable is called FMU.VARIABLE.{did_you_mean(owner, list(self.models))}"
             )
         model = self.models[owner]
+        if elements := model.arrays.get(variable):
+            raise CouplingError(
+                f"'{name}' is an array, which is exchanged by its elements. Name them: '{owner}.{elements[0]}' to "
+                f"'{owner}.{elements[-1]}'."
+            )
         if variable not in model.variables:
             raise CouplingError(
                 f"The FMU '{owner}' has no variable '{variable}'.{did_you_mean(variable, list(model.variables))} "
@@ -170,14 +162,14 @@ class System:
     def outputs(self, names: Iterable[str] | None) -> list[Port]:
         """Return the variables to record: those named and verdicts of FMUs, or every output that is no text.
 
-        Arrays by their elements.
+        An array by its elements.
         """
         if isinstance(names, str):
             raise CouplingError(f"outputs = {names!r} is one name. Give a list of names.")
         if names is not None:
             every = dict.fromkeys([*names, *self.verdicts.values()])
             return [element for name in every for element in self._recorded(name)]
-        return [element for port in self._every_output() if port.kind in _RECORDED for element in port.elements]
+        return [port for port in self._every_output() if port.kind in _RECORDED]
 
     @property
     def verdicts(self) -> dict[str, str]:
@@ -185,7 +177,7 @@ class System:
         return {name: f"{name}.{m.verdict.name}" for name, m in self.models.items() if m.verdict is not None}
 
     def left_out(self) -> list[str]:
-        """Return the outputs that are recorded only where they are named, if at all: texts and binary data."""
+        """Return the outputs that are recorded only where they are named, if at all: texts, binary data and arrays."""
         return [port.name for port in self._every_output() if port.kind not in _RECORDED]
 
     def _every_output(self) -> Iterator[Port]:
@@ -193,9 +185,12 @@ class System:
         return (Port(model, variable) for model, variable in outputs)
 
     def _recorded(self, name: str) -> list[Port]:
-        port = self.port(name)
-        self._check_type(port)
-        return port.elements
+        owner, _, variable = str(name).partition(".")
+        elements = self.models[owner].arrays.get(variable) if owner in self.models else None
+        ports = [self.port(name)] if elements is None else [self.port(f"{owner}.{each}") for each in elements]
+        for port in ports:
+            self._check_kind(port)
+        return ports
 
     def _input(self, name: str, what: str) -> Port:
         return self._of_causality(name, "input", what)
@@ -214,16 +209,16 @@ class System:
         self._check_kind(port)
         return port
 
-    def _check_type(self, port: Port) -> None:
+    def _check_kind(self, port: Port) -> None:
+        if port.kind == "array":
+            raise CouplingError(
+                f"'{port.name}' is an array of {math.prod(port.variable.shape)} elements; up to {MOST_ELEMENTS} can be "
+                "exchanged. Leave it out."
+            )
         if port.kind not in ("real", "integer", "boolean", "string"):
             raise CouplingError(
                 f"'{port.name}' is of type {port.variable.type}, which cannot be exchanged. Leave it out."
             )
-
-    def _check_kind(self, port: Port) -> None:
-        self._check_type(port)
-        if port.variable.dimensions:
-            raise CouplingError(f"'{port.name}' is an array, which cannot be exchanged. Use variables of one value.")
 
     def _connection(self, source_name: str, target_name: str, factor: float) -> Connection:
         source = self._output(source_name, "the start of a connection")
@@ -282,6 +277,11 @@ class System:
 
     def _start(self, name: str, value: Value) -> Value:
         port = self.port(name)
+        if port.variable.causality == "structuralParameter":
+            raise CouplingError(
+                f"'{name}' is a structural parameter, the size of arrays, and keeps its value here. Leave it out, or "
+                "export the FMU with another."
+            )
         if port.variable.causality != "input" and (
             port.variable.variability == "constant" or port.variable.initial not in ("exact", "approx")
         ):

@@ -1,7 +1,6 @@
 """What a master reads of an FMU before anything runs."""
 
 import zipfile
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -80,26 +79,6 @@ def test_inputs_that_may_be_set_within_a_step_are_known(tmp_path: Path) -> None:
         model = Model("a", build("gain", tmp_path, 3, intermediate=intermediate))
         assert model.variables["u"].intermediateUpdate is intermediate
         assert not model.variables["y"].intermediateUpdate
-
-
-def test_arrays_are_recorded_by_their_elements(tmp_path: Path) -> None:
-    path = build("gain", tmp_path, 3)
-    with zipfile.ZipFile(path) as archive:
-        lines = archive.read("modelDescription.xml").decode().splitlines()
-    (line,) = (line for line in lines if 'name="y"' in line)
-    array = line.replace("/>", '><Dimension start="1"/><Dimension start="1"/></Float64>')
-    file = edited(path, (line, array))
-    system = System({"a": file}, parameters={"a.u": 2.0})
-    result = simulate(system, stop_time=0.2, step_size=0.1)
-    right = simulate(System({"a": path}, parameters={"a.u": 2.0}), stop_time=0.2, step_size=0.1)
-    assert result["a.y[1,1]"].values.tolist() == right["a.y"].values.tolist()
-    assert [port.name for port in system.outputs(["a.y"])] == ["a.y[1,1]"]
-    with pytest.raises(CouplingError, match=r"'a\.y' is an array, which cannot be exchanged"):
-        System({"a": file, "b": path}, [("a.y", "b.u")])
-    variable = replace(system.port("a.y"), place=4)
-    variable.variable.shape = (2, 3)
-    assert [port.name for port in variable.elements][3:5] == ["a.y[2,1]", "a.y[2,2]"]
-    assert variable.name == "a.y[2,2]"
 
 
 @pytest.mark.parametrize("fmi", [2, 3])

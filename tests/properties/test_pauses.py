@@ -12,7 +12,7 @@ from comparison import approx
 from component_examples import EXAMPLES
 from test_parts_random import WIDEST
 
-from contact_core import OperatingPoint, Scene, advance, initial_state, shipped_scenes
+from contact_core import ContactState, OperatingPoint, Scene, advance, initial_state, shipped_scenes
 from system_models.machines import reading
 from system_models.machines.ball_bearing.part import BallBearing
 from system_models.parts.part import Input, Part, State, Values, start_values
@@ -22,6 +22,8 @@ MACHINES = ("bearing_209", "bearing_218", "gear_fzg_c", "cam_follower", "mtm_rig
 LONG = 1e7  # s, after which components have come to rest
 SUMS = ("revolutions", "energy", "heater_energy")  # outputs over all the past
 UNTOUCHED = {"tribofilm.model": "none", "wear.model": "none"}
+SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}
+ROUGH = {"surface_1.correlation_length": "16 um", "surface_2.correlation_length": "16 um"}
 COMPARED = ("h_c", "friction_coefficient", "contact_load_ratio", "pressure_max", "rolling_resistance")
 
 
@@ -134,9 +136,64 @@ def paused(rng: random.Random, point: OperatingPoint) -> OperatingPoint:
     return rng.choice([moved, replace(point, load=0.0, speed_1=0.0, speed_2=0.0)])
 
 
+def solved_contacts() -> Iterator[tuple[Scene, OperatingPoint]]:
+    """A full film between smooth bodies and rough bodies that touch, both on a coarse grid."""
+    for changes, faster in ((SMOOTH, 30.0), (ROUGH, 1.0)):
+        scene = Scene.from_toml("mtm_zddp", changes | UNTOUCHED | {"film.points": "33"})
+        point = scene.operation.point
+        yield scene, replace(point, speed_1=faster * point.speed_1, speed_2=faster * point.speed_2)
+
+
+def certain(point: OperatingPoint) -> list[list[OperatingPoint]]:
+    """Duties of every kind: a pause, no load at speed, a stop under load, a reversal, more load, and some in a row."""
+    resting = replace(point, load=0.0, speed_1=0.0, speed_2=0.0)
+    stopped, back = (replace(point, speed_1=k * point.speed_1, speed_2=k * point.speed_2) for k in (0.0, -1.0))
+    free, pressed = (replace(point, load=k * point.load) for k in (0.0, 2.0))
+    return [[resting], [free], [stopped], [back], [pressed], [resting, back, stopped, pressed]]
+
+
+def check_that_it_returns(scene: Scene, point: OperatingPoint, duty: list[OperatingPoint], step: float) -> None:
+    """After a duty, each of its points followed by a restart, a contact is what it is without it.
+
+    Rough bodies lie elsewhere after it: the contact without a past begins there. Bit for bit where no film is left,
+    else within the errors that are given, because a march begins with the film before it.
+    """
+    state, _ = advance(scene, point, initial_state(scene), step)
+    for now in duty:
+        state, out = advance(scene, now, ContactState.from_bytes(state.to_bytes(), scene), step)
+        assert all(map(math.isfinite, (value for value in vars(out).values() if isinstance(value, float)))), now
+    new = initial_state(scene)
+    places = [replace(body, offset=own.offset) for body, own in zip(new.bodies, state.bodies, strict=True)]
+    _, undisturbed = advance(scene, point, replace(new, bodies=(places[0], places[1])), step)
+    _, found = advance(scene, point, state, step)
+    allowed = {
+        "h_c": undisturbed.error_film * undisturbed.h_c,
+        "friction_coefficient": undisturbed.error_friction * undisturbed.friction_coefficient,
+        "contact_load_ratio": max(undisturbed.error_load_ratio, scene.film.tolerance),
+    }
+    if state.film is None:
+        allowed = dict.fromkeys(COMPARED, 0.0)
+    for key, error in allowed.items():
+        assert abs(getattr(found, key) - getattr(undisturbed, key)) <= error, (scene.description, duty, key)
+
+
+@pytest.mark.parametrize("kind", [*(pytest.param(k, marks=pytest.mark.long) for k in range(5)), 5])
+def test_solved_contacts_return_from_pauses_and_reversals_to_what_they_are_without_them(kind: int) -> None:
+    for scene, point in solved_contacts():
+        check_that_it_returns(scene, point, certain(point)[kind], 1.0)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(10))
+def test_solved_contacts_return_from_any_duty_to_what_they_are_without_it(seed: int) -> None:
+    for scene, point in solved_contacts():
+        rng = random.Random(f"{point} {seed}")
+        duty = [paused(rng, point) for _ in range(rng.randint(2, 4))]
+        check_that_it_returns(scene, point, duty, 10.0 ** rng.uniform(-3.0, 2.0))
+
+
 def test_a_solved_contact_takes_next_to_no_load_and_speed_for_none() -> None:
-    coarse = {"film.points": "33", "surface_1.correlation_length": "16 um", "surface_2.correlation_length": "16 um"}
-    scene = Scene.from_toml("mtm_zddp", coarse)
+    scene = Scene.from_toml("mtm_zddp", ROUGH | {"film.points": "33"})
     point = scene.operation.point
     resting, hardly = (
         replace(point, load=load, speed_1=speed, speed_2=speed) for load, speed in ((0.0, 0.0), (1e-200, 1e-200))

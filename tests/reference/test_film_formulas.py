@@ -1,9 +1,19 @@
+import math
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from comparison import approx
 
 from contact_core import Scene
-from contact_core.reference import SmoothContact, chittenden, hamrock_dowson, moes_film, nijenbanning_venner_moes
+from contact_core.reference import (
+    SmoothContact,
+    chittenden,
+    hamrock_dowson,
+    moes_film,
+    nijenbanning_venner_moes,
+    nvm_film,
+)
 
 
 def smooth(name: str) -> SmoothContact:
@@ -112,3 +122,10 @@ def test_chittenden_agrees_with_hamrock_and_dowson_for_ellipses_across_the_entra
 def test_chittenden_agrees_with_nijenbanning_for_either_axis_along_the_entrainment_under_a_light_load(ratio):
     contact = of_moes(20.0, 10.0, ratio=ratio)
     assert chittenden(contact)[0] == approx(nijenbanning_venner_moes(contact), rel=0.1)
+
+
+@pytest.mark.parametrize("load", [*(10.0**n for n in range(-320, 7, 20)), 1e6])
+def test_the_film_of_next_to_no_load_or_speed_is_a_number(load: float) -> None:
+    films = [nvm_film(load, 10.0**n, 0.01, 2e-8, 0.01, 0.01, 2.2e11) for n in range(-320, 3, 2)]
+    assert all(0.0 < film < math.inf for film in films)
+    assert all(later >= film for film, later in pairwise(films))

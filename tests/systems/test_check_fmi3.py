@@ -128,7 +128,7 @@ def test_arrays_are_left_out_and_told(tmp_path: Path) -> None:
     fmu = edited(built("gain", tmp_path), tmp_path / "arrays.fmu", replaced("</ModelVariables>", many))
     found = answers(fmu)
     assert verdicts(found, Verdict.FAIL) == set()
-    assert "Arrays, clocks and binary data are not read here: many." in found["run"].evidence
+    assert "Arrays, clocks and binary data are neither set nor read here: many." in found["run"].evidence
 
 
 @pytest.mark.parametrize(

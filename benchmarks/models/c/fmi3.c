@@ -96,25 +96,38 @@ static Status check_mode(Instance *it)
     return say(it, ERROR, "A discrete input was set outside of event mode.");
 }
 
+/* Of an array the elements follow one another, from the value reference on. */
+static size_t size_of(unsigned ref) { return ref < LAYOUT.n_numbers ? LAYOUT.size[ref] : 1; }
+
+static Status check_count(Instance *it, const unsigned *refs, size_t n, size_t m)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) count += size_of(refs[i]);
+    return count == m ? OK : say(it, ERROR, "The variables have %zu values, not %zu.", count, m);
+}
+
 #define NUMBER(Type, kind)                                                                                           \
     fmi3Status fmi3Get##Type(fmi3Instance c, const fmi3ValueReference vr[], size_t n, fmi3##Type value[], size_t m)  \
     {                                                                                                                \
-        Status status = m == n ? OK : ERROR;                                                                         \
-        for (size_t i = 0; i < n && status == OK; i++) {                                                             \
-            double number = 0.0;                                                                                     \
-            status = get_numbers(c, kind, vr + i, 1, &number);                                                       \
-            value[i] = (fmi3##Type)number;                                                                           \
-        }                                                                                                            \
+        Status status = check_count(c, vr, n, m);                                                                    \
+        for (size_t i = 0, k = 0; i < n && status == OK; i++)                                                        \
+            for (unsigned at = vr[i]; at < vr[i] + size_of(vr[i]) && status == OK; at++) {                           \
+                double number = 0.0;                                                                                 \
+                status = get_numbers(c, kind, &at, 1, &number);                                                      \
+                value[k++] = (fmi3##Type)number;                                                                     \
+            }                                                                                                        \
         return (fmi3Status)status;                                                                                   \
     }                                                                                                                \
     fmi3Status fmi3Set##Type(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const fmi3##Type value[],      \
                              size_t m)                                                                               \
     {                                                                                                                \
-        Status status = m != n ? ERROR : kind == 'R' ? OK : check_mode(c);                                           \
-        for (size_t i = 0; i < n && status == OK; i++) {                                                             \
-            double number = value[i];                                                                                \
-            status = set_numbers(c, kind, vr + i, 1, &number);                                                       \
-        }                                                                                                            \
+        Status status = check_count(c, vr, n, m);                                                                    \
+        if (status == OK && kind != 'R') status = check_mode(c);                                                     \
+        for (size_t i = 0, k = 0; i < n && status == OK; i++)                                                        \
+            for (unsigned at = vr[i]; at < vr[i] + size_of(vr[i]) && status == OK; at++) {                           \
+                double number = value[k++];                                                                          \
+                status = set_numbers(c, kind, &at, 1, &number);                                                      \
+            }                                                                                                        \
         return (fmi3Status)status;                                                                                   \
     }
 

@@ -27,7 +27,8 @@ typedef struct State State;
 typedef struct {
     unsigned n_variables, n_numbers, n_strings, first_input, slopes_per_order;
     size_t state, value, slope, text; /* size of the state, offsets in it */
-    const char *kind, *causality;     /* a letter per variable */
+    const char *kind, *causality;     /* a letter per variable; each element of an array counts as one */
+    const unsigned *size;             /* of the array whose first element this is */
     const double *start;
     const char *const *start_text;
     const char *token;

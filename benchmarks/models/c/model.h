@@ -31,6 +31,7 @@ const Layout LAYOUT = {
     .text = offsetof(State, text),
     .kind = KIND,
     .causality = CAUSALITY,
+    .size = SIZE,
     .start = START,
     .start_text = START_TEXT,
     .token = TOKEN,
