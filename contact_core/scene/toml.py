@@ -34,6 +34,7 @@ _KINDS: dict[str, tuple[type[Model], ...]] = {
 _USUAL = {"geometry", "surface_1", "surface_2"}  # without a `model`: the first kind
 _UNNAMED = Surface  # its tables have never had a `model`, and stored states go by their text
 _DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data sheet"
+NO_UTF_8 = "it is not in UTF-8. Save it as UTF-8."  # in place of Python's words on a byte
 _TOO = {"operation.duration": " `tribofmu run` takes it as --hours, too."}
 _SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
 
@@ -67,13 +68,13 @@ def text_of(source: str | Path, kind: str = "scene") -> str:
     path = Path(source)
     try:
         if path.suffix == ".toml":
-            return path.read_text("utf-8")
+            return path.read_text("utf-8-sig")  # editors of Windows put a mark before the text
         if shipped.is_file():
             return shipped.read_text("utf-8")
     except OSError as error:
         raise SceneError(f"The {kind} file '{source}' cannot be read: {error.strerror}.{file_like(path)}") from None
-    except UnicodeDecodeError as error:
-        raise SceneError(f"The {kind} file '{source}' is not valid TOML: {error}.") from None
+    except UnicodeDecodeError:
+        raise SceneError(f"The {kind} file '{source}' is not valid TOML: {NO_UTF_8}") from None
     names = list(shipped_scenes())
     like = did_you_mean(str(source), names) or file_like(Path(f"{source}.toml"))
     raise SceneError(

@@ -36,6 +36,7 @@ def carry_out(
     writes the result with its exit code as the attribute EXIT_CODE; `attributes` are others of it that distinguish it
     from results of another kind. `about` are attributes that do not, and that the checkpoint has, too.
     """
+    _check(system, settings)
     origin = _origin(system, settings, name) | attributes
     checkpoint = _checkpoint(folder, system, settings, resume)
     continues = resume and checkpoint is not None and checkpoint.exists()
@@ -51,6 +52,13 @@ def carry_out(
         code = report(dataset.assign_attrs(origin | dict(about or {})), folder)
     _remove_checkpoint(folder)
     return code
+
+
+def _check(system: "System", settings: Mapping[str, Any]) -> None:
+    """Refuse settings that make no sense before anything is shown or asked."""
+    from ..master.settings import Settings
+
+    Settings(**{name: value for name, value in settings.items() if name != "outputs"}).check(system)
 
 
 def _origin(system: "System", settings: Mapping[str, Any], name: str) -> dict[str, str]:

@@ -1,7 +1,7 @@
 """A running FMU of FMI 2.0 or 3.0, on the host's side.
 
     archive    the file of an FMU, read within bounds; printable: its names and messages for a terminal
-    model      an FMU as its modelDescription.xml has it
+    model      an FMU as its modelDescription.xml has it; attributes: what is refused in it
     instance   a running FMU: the common part of both versions of FMI
     fmi2, fmi3 the running FMU of each version
     kinds      kinds of variables, by type and variability

@@ -4,12 +4,12 @@ from fmpy.model_description import ModelVariable
 
 REAL = ("Real", "Float64", "Float32")
 INTEGER = ("Integer", "Enumeration", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64")
-_KINDS = {**dict.fromkeys(REAL, "real"), **dict.fromkeys(INTEGER, "integer"), "Boolean": "boolean", "String": "string"}
+KINDS = {**dict.fromkeys(REAL, "real"), **dict.fromkeys(INTEGER, "integer"), "Boolean": "boolean", "String": "string"}
 
 
 def kind(variable: ModelVariable) -> str:
     """Return the kind of a variable: real, integer, boolean or string; its type if it is none of them."""
-    return _KINDS.get(variable.type, variable.type)
+    return KINDS.get(variable.type, variable.type)
 
 
 def discrete(variable: ModelVariable) -> bool:

@@ -9,12 +9,14 @@ from typing import Any, NamedTuple
 
 import fmpy
 import numpy as np
-from fmpy.model_description import ModelDescription, ModelVariable
+from fmpy.model_description import ModelDescription, ModelVariable, ValidationError
 from lxml import etree
 
+from . import attributes
 from .archive import DESCRIPTION, opened
 from .errors import CouplingError, FmuError
 from .kinds import kind
+from .printable import printable
 
 MOST_ELEMENTS = 2**16  # of an array that is exchanged
 
@@ -46,7 +48,7 @@ class Model:
                 root = archive.document(DESCRIPTION)
         except FmuError as error:
             raise FmuError(f"The FMU '{name}' cannot be read: {error}") from None
-        self.description = _description(name, self.path)
+        self.description = _description(name, self.path, root)
         self.variables: dict[str, ModelVariable] = {v.name: v for v in self.description.modelVariables}
         self._complete(root)
         self.arrays: dict[str, list[str]] = {}
@@ -133,10 +135,7 @@ class Model:
     def starts(self, array: ModelVariable) -> list[Any]:
         """Return the start values of all elements of an array. Raises CouplingError if its description lacks them."""
         count, read = len(self.arrays[array.name]), _READ.get(kind(array))
-        try:
-            found = [read(word) for word in str(array.start).split()] if read else []
-        except ValueError:
-            found = []
+        found = [read(word) for word in (array.start or "").split()] if read else []
         if len(found) not in (1, count):
             raise CouplingError(
                 f"An element of '{self.name}.{array.name}' cannot be set before the initialisation, because the start "
@@ -159,18 +158,20 @@ class Model:
         return self.arrays.get(variable.name, [variable.name])
 
 
-def _description(name: str, path: Path) -> ModelDescription:
+def _description(name: str, path: Path, root: etree._Element) -> ModelDescription:
+    version = root.get("fmiVersion", "")
+    if version != "2.0" and not version.startswith("3."):
+        raise CouplingError(
+            f"The FMU '{path}' of '{name}' is of FMI {printable(version) or '(no version)'}, which is not "
+            "supported; FMI 2.0 and 3.0 are. Export it anew."
+        )
     try:
+        attributes.check(root, version.startswith("3."))
         description = fmpy.read_model_description(str(path), validate=False)
     except Exception as error:
         raise CouplingError(
-            f"The FMU '{path}' of '{name}' cannot be read: {error} `tribofmu check` says more."
+            f"The FMU '{path}' of '{name}' cannot be read: {_reason(error)} Export it anew; `tribofmu check` says more."
         ) from None
-    if not description.fmiVersion.startswith(("2.", "3.")):
-        raise CouplingError(
-            f"The FMU '{path}' of '{name}' is of FMI {description.fmiVersion}; FMI 2.0 and 3.0 can be coupled. "
-            "Export it anew."
-        )
     if description.coSimulation is None:
         raise CouplingError(
             f"The FMU '{path}' of '{name}' is made for model exchange only: it brings no solver of its own. "
@@ -181,3 +182,9 @@ def _description(name: str, path: Path) -> ModelDescription:
             f"The FMU '{path}' of '{name}' names '{library}' as its library, a path and no name. Export it anew."
         )
     return description
+
+
+def _reason(error: Exception) -> str:
+    """Return why a description is not read: errors of Python itself name no cause that a user could know."""
+    said = type(error) is Exception or isinstance(error, (FmuError, ValidationError))
+    return printable(str(error)) if said else "its modelDescription.xml breaks the rules of FMI."

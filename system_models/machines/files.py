@@ -24,6 +24,6 @@ def is_machine(source: str) -> bool:
     if not source.endswith(".toml"):
         return source in shipped_files()
     try:
-        return "kind" in tomllib.loads(Path(source).read_text("utf-8"))
+        return "kind" in tomllib.loads(Path(source).read_text("utf-8-sig"))
     except (OSError, tomllib.TOMLDecodeError, UnicodeDecodeError):
         return False  # reading it as a scene will give the error

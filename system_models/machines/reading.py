@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 from contact_core.errors import SceneError
 from contact_core.quantities import LEVELS
-from contact_core.scene.toml import did_you_mean
+from contact_core.scene.toml import NO_UTF_8, did_you_mean
 
 from ..master.reading import settings, value
 from ..run import duty_table
@@ -54,13 +54,15 @@ def read(source: str, changes: Mapping[str, str] | None = None, duty: Path | Non
     path = Path(source)
     try:
         file = path if source.endswith(".toml") else shipped_files().get(source, path)
-        table = tomllib.loads(file.read_text("utf-8"))
+        table = tomllib.loads(file.read_text("utf-8-sig"))
     except OSError as error:
         raise SceneError(
             f"There is no machine '{source}' ({error.strerror}).{did_you_mean(source, list(shipped()))} Shipped are "
             f"{', '.join(shipped())}; or give the path of a .toml file."
         ) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError:
+        raise SceneError(f"The machine's file '{source}' is not valid TOML: {NO_UTF_8}") from None
+    except tomllib.TOMLDecodeError as error:
         raise SceneError(f"The machine's file '{source}' is not valid TOML: {error}.") from None
     if duty:
         own = table.get("duty", {})

@@ -31,7 +31,7 @@ from typing import Any
 
 from contact_core.errors import ContactError
 from contact_core.scene import units
-from contact_core.scene.toml import did_you_mean
+from contact_core.scene.toml import NO_UTF_8, did_you_mean
 
 from ..fmu.errors import CouplingError
 from .settings import Settings
@@ -66,8 +66,10 @@ def _tables(path: Path) -> dict[str, dict[str, Any]]:
     if content.startswith(_ARCHIVE):
         raise CouplingError(_of_archive(path))
     try:
-        file = tomllib.loads(content.decode("utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        file = tomllib.loads(content.decode("utf-8-sig"))
+    except UnicodeDecodeError:
+        raise CouplingError(f"This is not valid TOML: {NO_UTF_8}") from None
+    except tomllib.TOMLDecodeError as error:
         raise CouplingError(f"This is not valid TOML: {error}. Correct it.") from None
     tables: dict[str, dict[str, Any]] = {name: {} for name in ("fmus", "parameters", "schedule", *_KEYS)}
     for name, table in file.items():
@@ -173,7 +175,10 @@ def _times(key: str, value: Any) -> list[float]:
 def _number(key: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise CouplingError(f"{key} = {_shown(value)} must be a number.")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise CouplingError(f"{key} = {_shown(value)} is too large. Give at most 1e308.") from None
 
 
 def _one_of(*choices: Any) -> Callable[[str, Any], Any]:

@@ -17,6 +17,7 @@ from .system import System
 _MIN_STEP = 1e-6  # of the step
 _ITERATION_TOLERANCE = 1e-6
 _SAME = 1e-9  # of a step
+_MOST_STEPS = 1e9  # days of computing, and results of many GB
 
 
 def _setting(read: str, default: Any = MISSING, choices: Collection[Any] = ()) -> Any:
@@ -112,15 +113,32 @@ class Settings:
             raise CouplingError(f"tolerance = {self.tolerance:g} chooses the steps, and so do points. Leave one out.")
         if any(not one < other for one, other in pairwise((0.0, *self.points))):
             raise CouplingError("points, times in s, must be above 0 and rise.")
+        self._check_end()
+
+    def _check_end(self) -> None:
+        """Raise CouplingError if the steps are too short for the stop time ever to be reached."""
+        longest = "step_size" if self.tolerance is None else "max_step"
+        rest = self.stop_time - (self.points[-1] if self.points else 0.0)
+        rounding = _rounding(self.stop_time)
+        for name, least, why in (
+            (longest, rest / _MOST_STEPS, f"needs more than {_MOST_STEPS:g} steps to"),
+            *((name, rounding, "is lost by rounding beside") for name in ("step_size", "min_step", "max_step")),
+        ):
+            size = getattr(self, name)
+            if size is not None and size < least:
+                raise CouplingError(
+                    f"{name} = {size:g} s {why} stop_time = {self.stop_time:g} s. Give at least {1.01 * least:.3g} s, "
+                    "or an earlier stop_time."
+                )
 
     @property
     def smallest_step(self) -> float:
         """The step [s] below which none is made, and how near an event is found."""
-        return _MIN_STEP * self.step_size if self.min_step is None else self.min_step
+        return max(_MIN_STEP * self.step_size, _rounding(self.stop_time)) if self.min_step is None else self.min_step
 
     def margin(self, time: float) -> float:
         """Return by how much [s] another time may differ from `time` and still be the same: no step lies between."""
-        return max(min(_SAME * min(self.step_size, self.stop_time), self.smallest_step), 4.0 * math.ulp(time))
+        return max(min(_SAME * min(self.step_size, self.stop_time), self.smallest_step), _rounding(time))
 
     @property
     def past(self) -> list[float]:
@@ -159,6 +177,11 @@ class Settings:
                     f"The FMU '{fixed[0]}' takes steps of one size only (canHandleVariableCommunicationStepSize is "
                     f"false), but {time:g} s is no multiple of step_size = {self.step_size:g} s. Make it one."
                 )
+
+
+def _rounding(time: float) -> float:
+    """Return by how much [s] a time is known, computed by a few additions."""
+    return 4.0 * math.ulp(time)
 
 
 def _choose(name: str, value: object, choices: list[str]) -> None:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST_ROWS, _MOST_PANELS = 20, 20
+_WIDEST = 60  # letters of a title: a longer one leaves no room for its panel
 _SAME = 0.99  # steps that differ by less need no picture
 _COLOUR = "#0072B2"
 
@@ -179,8 +180,14 @@ def overview(dataset: xr.Dataset) -> "Figure":
         axis.set_xlabel("time [s]")
         axis.tick_params(labelbottom=True)
     more = f", {len(shown) - _MOST_PANELS} more in the files" if len(shown) > _MOST_PANELS else ""
-    figure.suptitle(printable(f"{dataset.attrs.get('title', '')}{more}"), fontsize="medium", parse_math=False)
+    figure.suptitle(f"{_title(dataset.attrs.get('title', ''))}{more}", fontsize="medium", parse_math=False)
     return figure
+
+
+def _title(text: str) -> str:
+    """Return a text that fits above a panel: both ends of a long one, by which names and units differ."""
+    text, half = printable(text), _WIDEST // 2 - 1
+    return text if len(text) <= _WIDEST else f"{text[:half]}...{text[-half:]}"
 
 
 def _draw(axis: "Axes", variable: xr.DataArray) -> None:
@@ -195,6 +202,6 @@ def _draw(axis: "Axes", variable: xr.DataArray) -> None:
     if kind == "b":
         axis.set(ylim=(-0.1, 1.1), yticks=(0.0, 1.0), yticklabels=("false", "true"))
     title = name.removeprefix("master.") + ("" if unit == "1" else f" [{unit}]")
-    axis.set_title(printable(title), fontsize="medium", loc="left", parse_math=False)
+    axis.set_title(_title(title), fontsize="medium", loc="left", parse_math=False)
     axis.margins(x=0.0)
     axis.spines[["top", "right"]].set_visible(False)

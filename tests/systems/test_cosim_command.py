@@ -18,6 +18,7 @@ from benchmarks.models import build
 from contact_core import StateError
 from system_models.cli.main import main
 from system_models.master import CouplingError, System, saving, simulate
+from system_models.master.settings import Settings
 from system_models.master.stepping import Stepper
 from system_models.run import cosim_report
 from system_models.store import results
@@ -134,6 +135,35 @@ def test_what_cannot_be_done_is_refused(
     err = capsys.readouterr().err
     assert err.splitlines()[-1].startswith("tribofmu: ")
     assert says in err
+
+
+NO_END = [
+    (["stop_time=nan"], "stop_time = nan is not a finite number above 0, in s."),
+    (
+        ["stop_time=1e300"],
+        "step_size = 0.002 s needs more than 1e+09 steps to stop_time = 1e+300 s. Give at least 1.01e",
+    ),
+    (["step_size=1e-320"], "needs more than 1e+09 steps to stop_time = 0.1 s. Give at least 1.01e-10 s, or an earlier"),
+    (["step_size=1e-18", "tolerance=1e-3"], "is lost by rounding beside stop_time = 0.1 s. Give at least 5.61e-17 s"),
+    (["min_step=1e-18"], "min_step = 1e-18 s is lost by rounding beside stop_time = 0.1 s. Give at least 5.61e-17 s"),
+    (
+        ["stop_time=1e300", "tolerance=1e-3", "max_step=0.1"],
+        "max_step = 0.1 s needs more than 1e+09 steps to stop_time",
+    ),
+]
+
+
+@pytest.mark.parametrize(("changes", "says"), NO_END)
+def test_an_end_that_no_number_of_steps_reaches_is_refused_with_one_sentence(
+    car: str, changes: list[str], says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["cosim", car, "--set", *(f"simulate.{change}" for change in changes)]) == 2
+    (sentence,) = capsys.readouterr().err.splitlines()
+    assert says in sentence
+
+
+def test_steps_and_events_are_not_sought_within_the_rounding_of_times() -> None:
+    assert 1.0 + Settings(1.0, 1e-15, tolerance=1e-3).smallest_step > 1.0
 
 
 def test_a_missed_tolerance_ends_with_1(car: str, capsys: pytest.CaptureFixture[str], no_picture: None) -> None:

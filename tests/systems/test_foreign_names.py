@@ -3,6 +3,7 @@
 import csv
 import re
 import tempfile
+import warnings
 import zipfile
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
@@ -119,6 +120,15 @@ def test_names_in_pictures_are_no_formulas(name: str) -> None:
     figure = cosim_report.overview(dataset)
     figure.draw_without_rendering()
     assert figure.axes[0].get_title("left") == f"{cosim_report.printable(name)} [m]"
+
+
+def test_pictures_have_room_for_their_panels_beside_names_of_any_length() -> None:
+    names = [f"a.{letter * 400}_{n}" for n, letter in enumerate("Wx")]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        figure = cosim_report.overview(table(names).assign(table(["master.step_size"])).assign_attrs(title="W" * 250))
+        figure.draw_without_rendering()
+    assert {axis.get_title("left")[-7:] for axis in figure.axes[:2]} == {f"{name[-3:]} [m]" for name in names}
 
 
 @pytest.mark.parametrize("name", ["master", "bond"])

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from system_models.fmu.errors import CouplingError
+from system_models.fmu.model import Model
 from system_models.master.reading import read
 from system_models.master.system import System
 
@@ -229,6 +230,7 @@ def test_changes_win_over_the_file(folder: Path) -> None:
         ),
         (FMUS + '[simulate]\nstop_time = "1"\n', r"simulate.stop_time = '1' has no unit. Write for example '1.0 s'"),
         (FMUS + "[simulate]\nstop_time = true\n", r"simulate.stop_time = True must be a number"),
+        (FMUS + f"[simulate]\nstop_time = 1{'0' * 400}\n", r"simulate.stop_time = 1000.* is too large"),
         (FMUS + '[simulate]\norder = "1"\n', r"simulate.order = '1' must be one of 0, 1, 2"),
         (FMUS + "[simulate]\nalgorithm = 1\n", r"simulate.algorithm = 1 must be one of 'jacobi', 'gauss_seidel'"),
         (FMUS + '[simulate]\niterate = "newton"\n', r"'newton' must be one of 'fixed_point', 'aitken', 'quasi_newton'"),
@@ -276,6 +278,38 @@ def test_an_archive_in_place_of_a_system_is_named(name: str, said: str, tmp_path
         archive.writestr("modelDescription.xml", "")
     with pytest.raises(CouplingError, match=said):
         read(tmp_path / name)
+
+
+@pytest.mark.parametrize(
+    ("found", "other", "says"),
+    [
+        ('fmiVersion="2.0"', 'fmiVersion="1.0"', r"is of FMI 1\.0, which is not supported; FMI 2\.0 and 3\.0 are"),
+        (' fmiVersion="2.0"', "", r"is of FMI \(no version\), which is not supported"),
+        ('Reference="3"', 'Reference="abc"', "variable 'm' has valueReference = 'abc', which is no whole number"),
+        ('Real start="1"', 'Real start="53,7"', "variable 'm' has start = '53,7', which is no number"),
+        ('Integer start="1"', 'Integer start="1.5"', "variable 'count' has start = '1.5', which is no whole number"),
+        ('Real start="1"', 'Real nominal="" start="1"', "variable 'm' has nominal = '', which is no number"),
+        ('name="spring.k"', 'name="m"', "it has 2 variables called 'm', which cannot be told apart"),
+        ('<Unknown index="', '<Unknown index="99', r"modelDescription\.xml breaks the rules of FMI\. Export it anew"),
+    ],
+)
+def test_what_an_fmu_describes_wrongly_is_told_by_its_name(found: str, other: str, says: str, tmp_path: Path) -> None:
+    describe(tmp_path / "whole.fmu", BLOCK)
+    with zipfile.ZipFile(tmp_path / "whole.fmu") as whole, zipfile.ZipFile(tmp_path / "wrong.fmu", "w") as wrong:
+        text = whole.read("modelDescription.xml").decode()
+        assert found in text
+        wrong.writestr("modelDescription.xml", text.replace(found, other, 1))
+    with pytest.raises(CouplingError, match=says):
+        Model("block", tmp_path / "wrong.fmu")
+
+
+def test_a_system_is_text_in_utf_8_with_a_mark_or_without(folder: Path, tmp_path: Path) -> None:
+    file = folder / "coded.toml"
+    file.write_text(FMUS, "utf-8-sig")
+    read(file)
+    file.write_text(FMUS, "utf-16")
+    with pytest.raises(CouplingError, match=r"it is not in UTF-8\. Save it as UTF-8\.$"):
+        read(file)
 
 
 def test_outputs_that_are_no_numbers_are_named(tmp_path: Path) -> None:
