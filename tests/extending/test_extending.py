@@ -256,6 +256,7 @@ print(json.dumps([*found, *package_of(barrel)]))
     assert "A roller of the length l with a crown" in page
 
 
+@pytest.mark.long
 def test_a_shape_without_its_entry_is_refused_by_name(extend: Callable[..., Tree]) -> None:
     tree = extend(SHAPE, without="contact_core/shapes/__init__.py")
     said = tree.python(_START + 'scene_of(geometry__model="barrel")', fails=True)
@@ -335,6 +336,7 @@ reading.assemble(machine)
     assert "load" in said.splitlines()[-1]
 
 
+@pytest.mark.long
 def test_a_machine_without_its_entry_is_refused_by_kind(extend: Callable[..., Tree]) -> None:
     tree = extend(MACHINE, without=REGISTRY)
     said = tree.command("tribofmu run pin_rig", fails=True)

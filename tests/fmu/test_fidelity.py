@@ -172,6 +172,7 @@ def test_fidelity_is_tunable_and_starts_at_the_level_of_the_scene(host):
     assert host.get("fidelity_used") == 0
 
 
+@pytest.mark.long
 def test_a_line_changes_level_like_the_core_and_rolls_back(line_folder, line_scene):
     steps = [(5.0, FULL), (10.0, FAST), (5.0, AUTO), (5.0, FULL)]
     expected = core_rows(line_scene, [(0.0, FULL), *steps])[1:]

@@ -86,6 +86,7 @@ def test_errors_and_rollback_in_turn_leave_the_run_as_it_was(quick_folder, monke
         host.fmu.freeFMUstate(handle)
 
 
+@pytest.mark.long
 def test_a_python_host_that_frees_no_instance_ends_cleanly(quick_folder):
     assert exit_code(quick_folder, "assert host.step(60.0)['valid']") == 0
 

@@ -26,6 +26,7 @@ def weak(tmp_path_factory):
     return scene, NativeContact(scene, tmp_path_factory.mktemp("weak"))
 
 
+@pytest.mark.long
 def test_classes_wear_and_break_out_one_after_the_other_as_in_python(weak):
     scene, contact = weak
     found = differences(scene, contact, 3, 8)

@@ -49,6 +49,7 @@ def worn(record: Record, body: int) -> Array:
     return record.along(f"wear_depth_{body}")[-1]
 
 
+@pytest.mark.long
 def test_all_contacts_and_components_use_their_inputs_in_every_row(record: Record) -> None:
     names = [*record.assembly.parts, *record.assembly.contacts]
     assert len(record.assembly.contacts) == STATIONS

@@ -193,6 +193,7 @@ def test_a_title_cannot_become_markup(opened: Run) -> None:
     assert "alert" not in found.own
 
 
+@pytest.mark.long
 def test_an_interrupted_run_is_shown_as_far_as_it_went(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -55,6 +55,7 @@ def test_the_middle_of_a_roller_is_an_endless_line_under_the_load_of_its_middle(
     assert line.film.min() == approx(found.film[row].min(), rel=0.02)
 
 
+@pytest.mark.long
 def test_a_sharp_end_touches_and_a_generous_one_does_not():
     assert roller(Rounded(2.2e-3, 1.0)).contact_load_ratio > 0.001
     assert roller(Logarithmic(3e-6)).contact_load_ratio == 0.0
