@@ -16,6 +16,7 @@ DESCRIPTION = "modelDescription.xml"
 _LARGE = 256 << 20  # bytes to which any file may unpack; larger ones may be so many times their packed size:
 _DENSEST = 100  # models, libraries and tables are packed 2 to 20 times, files made to fill memory or disk 1000 times
 _LONGEST_DOCUMENT = 64 << 20  # bytes: read as XML it takes up to ten times as much memory
+_LONGEST_NAME = 255  # bytes of a file or folder: no file system has more
 _ENCRYPTED = 1  # bit of the flags of a file
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)  # FMI has no others
 
@@ -77,6 +78,8 @@ class Archive:
             name = printable(info.orig_filename)
             if not info.filename or _leaves(info.orig_filename):
                 return f"'{name}' must be relative, without '..', and with '/' between folders."
+            if any(len(part.encode()) > _LONGEST_NAME for part in PurePosixPath(info.filename).parts):
+                return f"'{name[:20]}...' has a name of more than {_LONGEST_NAME} bytes, which no file can have."
             if stat.S_ISLNK(info.external_attr >> 16):
                 return f"'{name}' is a symbolic link; an FMU has files only."
         folders = {str(parent) for info in self.infos for parent in PurePosixPath(info.filename).parents}

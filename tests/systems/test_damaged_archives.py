@@ -135,6 +135,10 @@ UNFIT: dict[str, tuple[Callable[[], bytes], str]] = {
     "link": (with_a_link, "'resources/link' is a symbolic link"),
     "both": (lambda: packed({XML: DESCRIPTION.format(doctype=""), "a": "", "a/b": ""}), "'a' is a file and a folder"),
     "control": (lambda: packed({XML: DESCRIPTION.format(doctype=""), "\x1b[31m\\": ""}), r"'\x1b[31m\' must be"),
+    "long": (
+        lambda: packed({XML: DESCRIPTION.format(doctype=""), f"a/{'b' * 256}": ""}),
+        "a name of more than 255 bytes",
+    ),
 }
 
 
