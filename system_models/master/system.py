@@ -13,7 +13,7 @@ from fmpy.model_description import ModelVariable
 from contact_core.scene.toml import did_you_mean
 
 from ..fmu.errors import CouplingError
-from ..fmu.kinds import discrete, kind
+from ..fmu.kinds import discrete, holds, kind
 from ..fmu.model import MOST_ELEMENTS, Model
 from . import unit_checks
 
@@ -79,7 +79,10 @@ class Connection:
 
     def result(self, value: Any) -> Any:
         """Return the value of the target for a value of the source."""
-        return self.factor * value + self.offset if self.source.kind == "real" else value
+        found = self.factor * value + self.offset if self.source.kind == "real" else value
+        if self.source.kind == "integer":
+            _check_holds(self.target, found)
+        return found
 
 
 @dataclass(frozen=True)
@@ -354,7 +357,15 @@ def checked(port: Port, value: Any) -> Value:
     if not fits or (port.kind == "real" and not math.isfinite(value)):
         unit = f", in {port.variable.unit or '1'}" if port.kind == "real" else ""
         raise CouplingError(f"'{port.name}' = {value!r} is not a value of type {port.variable.type}. Give one{unit}.")
+    _check_holds(port, value)
     return float(value) if port.kind == "real" else value
+
+
+def _check_holds(port: Port, value: Any) -> None:
+    if not holds(port.variable, value):
+        raise CouplingError(
+            f"'{port.name}' = {value!r} is beyond what {port.variable.type}, its type, can hold. Give a smaller one."
+        )
 
 
 def _fmu_name(name: str) -> str:

@@ -217,6 +217,7 @@ def test_changes_win_over_the_file(folder: Path) -> None:
         (FMUS + "[parameters]\nblok.m = 1\n", r"'blok.m' names no variable .* Did you mean 'block'\?"),
         (FMUS + '[parameters]\nblock.m = "1 kg"\n', r"'block.m' = '1 kg' is not a value of type Real"),
         (FMUS + "[parameters]\nblock.count = 1.5\n", r"'block.count' = 1.5 is not a value of type Integer"),
+        (FMUS + "[parameters]\nblock.count = 2147483648\n", r"'block.count' = 2147483648 is beyond what Integer"),
         (FMUS + "[parameters]\nblock.m = inf\n", r"'block.m' = inf is not a value"),
         (FMUS + "[schedule]\ncontact.load = 10.0\n", r"schedule.contact.load = 10.0 must be a list of pairs"),
         (
