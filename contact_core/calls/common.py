@@ -26,6 +26,7 @@ Array = NDArray[np.float64]
 
 UNLIMITED = 1e12  # Pa
 _REFERENCE = 300.0  # K: any; temperatures are constant here
+_SLOWEST = 1e-30  # m/s
 _THICKEST = 0.01  # film over the smaller radius
 _VISCOSITY = {law.name: law for law in (Roelands, Barus)}
 _DENSITY = {law.name: law for law in (DowsonHigginson, Incompressible)}
@@ -87,8 +88,9 @@ class Numbers:
 
     @property
     def entrainment_speed(self) -> float:
-        """u_e = (u1 + u2) / 2 [m/s]."""
-        return 0.5 * (self.speed_1 + self.speed_2)
+        """u_e = (u1 + u2) / 2 [m/s]; 0 where it is so small that the film would be thinner than any atom."""
+        speed = 0.5 * (self.speed_1 + self.speed_2)
+        return speed if abs(speed) > _SLOWEST else 0.0
 
 
 Given = TypeVar("Given", bound=Numbers)

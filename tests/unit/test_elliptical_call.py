@@ -88,3 +88,14 @@ def test_one_number_is_the_nodes_along_x(ratio):
 def test_one_number_and_a_domain_give_square_cells():
     found = point_contact(**CALL, radius_y=40e-3, grid=33, domain=(-4e-4, 4e-4, -8e-4, 8e-4))
     assert found.film.shape == (65, 33)
+
+
+@pytest.mark.parametrize("speed", [1e-31, 1e-310, 5e-324])
+def test_bodies_that_hardly_move_are_at_rest(speed):
+    oil = {"viscosity": 0.01, "pressure_viscosity": 2e-8}
+    still, slow = (
+        point_contact(load=10.0, radius_x=0.01, reduced_modulus=2e11, speed_1=v, speed_2=v, **oil, grid=17)
+        for v in (0.0, speed)
+    )
+    assert slow.converged
+    assert slow.h_c == approx(still.h_c, rel=1e-9)
