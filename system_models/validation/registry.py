@@ -15,8 +15,6 @@ from . import (
     starvation,
     stresses,
     thesis,
-    tribofilm,
-    zddp_films,
 )
 from .model import Comparison, Outcome
 
@@ -24,13 +22,11 @@ COMPARISONS: dict[str, Comparison] = {
     "optical_films": optical_films.COMPARISON,
     "dimple": dimple.COMPARISON,
     "oils": oils.COMPARISON,
-    "zddp_films": zddp_films.COMPARISON,
     "film_formulas": film_formulas.COMPARISON,
     "starvation": starvation.COMPARISON,
     "dry_contact": dry_contact.COMPARISON,
     "stresses": stresses.COMPARISON,
     "flash": flash.COMPARISON,
-    "tribofilm": tribofilm.COMPARISON,
     "thesis": thesis.COMPARISON,
 }
 
