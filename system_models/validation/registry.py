@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from contact_core.errors import ContactError
 
 from . import (
+    asperity_load,
     dimple,
     dry_contact,
     film_formulas,
@@ -22,6 +23,7 @@ COMPARISONS: dict[str, Comparison] = {
     "optical_films": optical_films.COMPARISON,
     "dimple": dimple.COMPARISON,
     "oils": oils.COMPARISON,
+    "asperity_load": asperity_load.COMPARISON,
     "film_formulas": film_formulas.COMPARISON,
     "starvation": starvation.COMPARISON,
     "dry_contact": dry_contact.COMPARISON,

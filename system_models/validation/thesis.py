@@ -17,7 +17,7 @@ PAGE = "docs/measured/thesis/validation.md"
 
 @dataclass(frozen=True)
 class Printed:
-    """Constants of a tribofilm as they are printed: temperature [K], h_max [m], factor of k_B T / h, C3 [m], C4 [1/s]."""
+    """Printed constants of a tribofilm: temperature [K], h_max [m], factor of k_B T / h, C3 [m], C4 [1/s]."""
 
     temperature: float
     full: float
