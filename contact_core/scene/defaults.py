@@ -9,13 +9,15 @@ with a default of their own in the records (such as film.tolerance) are not list
 import copy
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, fields, replace
 from typing import Any, NamedTuple
 
 from ..errors import SceneError
 from ..laws.viscosity import AstmD341
+from ..quantities import out_of_range
+from .bases import USUAL, Base, base_of
 from .records import ACCURACY
-from .toml import models_of, with_named_set
+from .toml import DATA_SHEET, models_of, with_named_set
 from .units import parse
 
 
@@ -62,6 +64,7 @@ def completed_by_defaults(table: Mapping[str, Any]) -> tuple[dict[str, Any], lis
     filling = _Filling(table)
     for part in _OFF:
         filling.give(part, _NO_LAW, "switched off", "off")
+    _oil(filling)
     for part, (law, why) in _LAWS.items():
         filling.give_law(part, law, why)
     filling.give("plasticity", _PLASTICITY, "hardness of steel")
@@ -72,7 +75,6 @@ def completed_by_defaults(table: Mapping[str, Any]) -> tuple[dict[str, Any], lis
     if filling.needs("film", "floor"):
         filling.give("film.floor", _FLOOR, "thickness of the adsorbed layer, assumed as in the shipped scenes")
     _surfaces(filling)
-    _oil(filling)
     _bodies(filling)
     _duty(filling)
     filling.name()
@@ -102,6 +104,15 @@ class _Filling:
         for part in key.split("."):
             found = found.get(part) if isinstance(found, Mapping) else None
         return found
+
+    def take(self, key: str) -> Any:
+        """Return the value of a dotted key, and take it out of the table; None: not there."""
+        value = self.get(key)
+        part, _, last = key.rpartition(".")
+        for root in (self.table, self.known):
+            if isinstance(root.get(part), dict):
+                root[part].pop(last, None)
+        return value
 
     def has(self, key: str) -> bool:
         """Return True if the table, or a set that it names, gives a dotted key."""
@@ -188,29 +199,42 @@ def _surfaces(filling: _Filling) -> None:
 
 
 def _oil(filling: _Filling) -> None:
-    """Set what a data sheet of an oil leaves out."""
-    oil = "lubricant.viscosity"
+    """Set what a data sheet of an oil leaves out, by its family."""
+    oil, named = "lubricant.viscosity", filling.take("lubricant.base")
+    base, family = base_of(named or USUAL), f"of the base '{named}'" if named else "of a mineral oil, assumed"
     if filling.has(f"{oil}.viscosity_40") or filling.has(f"{oil}.viscosity_100"):
         filling.give(f"{oil}.model", AstmD341.name, "an oil by its data sheet", _NUMERICAL)
     if filling.get(f"{oil}.model") != AstmD341.name:
+        if named:
+            raise SceneError(f"lubricant.base = '{named}' goes with the data sheet of an oil: give {DATA_SHEET}.")
         return
     filling.give(f"{oil}.reference_temperature", _REFERENCE, "temperature of the pressure coefficient")
-    at = filling.number(f"{oil}.reference_temperature", "K")
-    cold, hot = (filling.number(f"{oil}.viscosity_{mark}", "m2/s") for mark in (40, 100))
-    coefficient = 0.0  # where reading the data sheet will be refused
-    if cold is not None and hot is not None and at is not None and 2e-6 <= hot < cold:
-        law = AstmD341(cold, hot, 1.0, 0.0, at, expansion=0.0)  # of 1 kg/m3: its viscosity is the kinematic one
-        coefficient = pressure_coefficient(float(law(0.0, at)))
-    why = "of mineral oils by their viscosity (Gold et al. 2001), a third either way; polyalphaolefins have 3/4 of it"
-    filling.give(f"{oil}.pressure_coefficient", f"{1e9 * coefficient:.3g} GPa^-1", why)
+    law = _of_sheet(filling, oil, base)
+    if law is None:  # reading the data sheet will be refused
+        filling.give(f"{oil}.pressure_coefficient", "0 GPa^-1", family)
+        return
+    why = f"{family} by its viscosities (Gold et al. 2001), {100.0 * base.interval:.0f} % either way"
+    filling.give(f"{oil}.pressure_coefficient", f"{1e9 * law.pressure_coefficient:.4g} GPa^-1", why)
+    for name in ("bend_40", "bend_100"):
+        filling.give(f"{oil}.{name}", float(f"{getattr(law, name):.3g}"), family)
+    stress = f"{1e-6 * base.eyring_stress(law):.3g} MPa"
+    rheology = {"model": "eyring", "eyring_stress": stress, "limiting_coefficient": base.limiting_coefficient}
+    filling.give_law("lubricant.rheology", rheology, f"{family}; the stress is assumed")
 
 
-def pressure_coefficient(kinematic: float) -> float:
-    """Return the pressure coefficient [1/Pa] of a mineral oil by its kinematic viscosity [m2/s] at p = 0.
-
-    0.9904 (nu / 1 mm2/s)^0.139 / 1e8 Pa: Gold, Schmidt, Dicke, Loos & Assmann, J. Synth. Lubr. 18 (2001) 51.
-    """
-    return 0.9904e-8 * (1e6 * kinematic) ** 0.139
+def _of_sheet(filling: _Filling, oil: str, base: Base) -> AstmD341 | None:
+    """Return the oil of a data sheet as a family has it; None if the sheet cannot be read."""
+    units = {"viscosity_40": "m2/s", "viscosity_100": "m2/s", "density": "kg/m3", "reference_temperature": "K"}
+    sheet = {name: filling.number(f"{oil}.{name}", unit) for name, unit in units.items()}
+    numbers = {name: value for name, value in sheet.items() if value is not None}
+    if len(numbers) < len(sheet):
+        return None
+    law = AstmD341(**numbers, pressure_coefficient=0.0)
+    if list(out_of_range(law, oil)) or law.error:
+        return None
+    own = filling.number(f"{oil}.pressure_coefficient", "Pa^-1")
+    law = base.oil(law)
+    return law if own is None else replace(law, pressure_coefficient=own)
 
 
 def _bodies(filling: _Filling) -> None:

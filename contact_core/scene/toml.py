@@ -33,7 +33,7 @@ _KINDS: dict[str, tuple[type[Model], ...]] = {
 }
 _USUAL = {"geometry", "surface_1", "surface_2"}  # without a `model`: the first kind
 _UNNAMED = Surface  # its tables have never had a `model`, and stored states go by their text
-_DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data sheet"
+DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data sheet"
 NO_UTF_8 = "it is not in UTF-8. Save it as UTF-8."  # in place of Python's words on a byte
 _TOO = {"operation.duration": " `tribofmu run` takes it as --hours, too."}
 _SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
@@ -390,7 +390,7 @@ def _missing(full: str, f: "Field[Any]") -> Missing:
         unit = f" [{unit}]" if unit else ""
         return Missing(full, f"{unit} ({text})".strip(), f"Give it{unit}: {text}.{_TOO.get(full, '')}")
     if models:
-        sheet = f"{_DATA_SHEET}, or " if full == "lubricant.viscosity" else ""
+        sheet = f"{DATA_SHEET}, or " if full == "lubricant.viscosity" else ""
         text = f"{sheet}a 'model': {', '.join(law.name for law in models)}{instead}"
         return Missing(full, f"({text})", f"Add the table, with {text}.")
     if f.type in (str, "str"):
