@@ -35,6 +35,9 @@ class Base:
     bend_100: float
     interval: float  # relative half width of the pressure coefficient
     limiting_coefficient: float
+    limiting_interval: tuple[float, float]
+    conductivity: float  # [W/(m K)]
+    conductivity_interval: tuple[float, float]
 
     def oil(self, sheet: AstmD341) -> AstmD341:
         """Return the oil of a data sheet with this family's pressure coefficient and bends.
@@ -53,14 +56,13 @@ class Base:
         return replace(bent, pressure_coefficient=1e-9 * slope * float(reference))
 
     def eyring_stress(self, oil: AstmD341) -> float:
-        """Return the Eyring stress [Pa] of an oil: 2 limiting coefficients over its pressure coefficient at 80 degC.
+        """Return the Eyring stress [Pa] of an oil: 2 limiting coefficients over its secant to 1 GPa at 80 degC.
 
-        Source: Bair & Winer, J. Tribol. 112 (1990) 245.
+        Bair & Winer, J. Tribol. 112 (1990) 245, with the coefficient under pressure as Arana, Larranaga & Ulacia 2019,
+        doi:10.1177/1350650118778655, equation 13, have it.
         """
-        coefficient = oil.pressure_coefficient * float(
-            oil.log_viscosity(_HOT) / oil.log_viscosity(oil.reference_temperature)
-        )
-        return 2.0 * self.limiting_coefficient / coefficient
+        secant = 1e-9 * math.log(float(oil(1e9, _HOT)) / float(oil(0.0, _HOT)))
+        return 2.0 * self.limiting_coefficient / secant
 
     def _naphthenic(self, sheet: AstmD341) -> float:
         """Return by what the coefficient is more than Gold's, by Roelands' slope index of the viscosity."""
@@ -75,7 +77,8 @@ class Base:
 @lru_cache(maxsize=1)
 def _bases() -> dict[str, Base]:
     text = (files("contact_core") / "data" / "bases.toml").read_text("utf-8")
-    return {name: Base(**values) for name, values in tomllib.loads(text).items()}
+    tables: dict[str, dict[str, Any]] = tomllib.loads(text)
+    return {name: Base(**values) for name, values in tables.items()}
 
 
 def base_of(name: Any) -> Base:

@@ -4,7 +4,7 @@ import difflib
 import pickle
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
 from functools import lru_cache
 from importlib.resources import files
@@ -93,7 +93,15 @@ def given(source: str | Path, overrides: Mapping[str, str]) -> tuple[dict[str, A
             table[path] = _with_file(table.get(path, {}), value, folders)
         else:
             override(table, key, located({last: value}, *reversed(folders))[last])
+    if isinstance(table.get("intervals"), Mapping):
+        table["intervals"] = _still_assumed(table["intervals"], changes)
     return table, folders
+
+
+def _still_assumed(intervals: Mapping[str, Any], changes: Iterable[str]) -> dict[str, Any]:
+    """Return the intervals of values that no change of a dotted key, or of its set or model, has replaced."""
+    roots = [key.removesuffix(".set").removesuffix(".model") for key in changes]
+    return {k: ends for k, ends in intervals.items() if not any(f"{k}.".startswith(f"{root}.") for root in roots)}
 
 
 def _with_file(surface: Mapping[str, Any], file: str, folders: tuple[Path, ...]) -> dict[str, Any]:
@@ -415,7 +423,7 @@ def unbuild(record: Any) -> dict[str, Any]:
     table: dict[str, Any] = {"model": record.name} if named else {}
     for f in fields(record):
         value = getattr(record, f.name)
-        if value is None:
+        if value is None or value == ():
             continue
         if is_dataclass(value):
             table[f.name] = unbuild(value)

@@ -22,12 +22,12 @@ def run() -> Outcome:
 def _row(measured: dict[str, str]) -> Row:
     base, celsius = base_of(measured["base"]), float(measured["temperature_C"])
     value, provenance = float(measured["coefficient_per_GPa"]), measured["provenance"]
-    viscosities = (1e-6 * float(measured[f"viscosity_{at}_mm2s"]) for at in (40, 100))
-    oil = base.oil(AstmD341(*viscosities, float(measured["density_15"]), 0.0, celsius + 273.15))
-    computed = 1e9 * oil.pressure_coefficient
+    cold, hot = (1e-6 * float(measured[f"viscosity_{at}_mm2s"]) for at in (40, 100))
+    sheet = AstmD341(cold, hot, float(measured["density_15"]), 0.0, celsius + 273.15)
+    computed, known = 1e9 * base.oil(sheet).pressure_coefficient, _KNOWN[provenance]
     return Row(
-        f"{measured['oil']} at {celsius:g} degC", "1/GPa", exactly(value), computed, relative(value, _KNOWN[provenance]),
-        f"{provenance}: {100.0 * _KNOWN[provenance]:.0f} %, assumed", relative(computed, base.interval),
+        f"{measured['oil']} at {celsius:g} degC", "1/GPa", exactly(value), computed, relative(value, known),
+        f"{provenance}: {100.0 * known:.0f} %, assumed", relative(computed, base.interval),
     )  # fmt: skip
 
 
