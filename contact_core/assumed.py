@@ -19,7 +19,9 @@ from .state import initial_state
 
 WEAR = "wear_depth"  # of both bodies together: their wear rate now
 OUTPUTS = ("friction_coefficient", "h_c", "contact_load_ratio", WEAR)
+HEADS = ("assumed", "between", "friction", "h_c", "W_c (absolute)", "wear rate")
 _SHARE = "contact_load_ratio"
+_LEAST = 1e-3  # half width that is told
 _UNKNOWN = 1e3  # relative, of wear where nothing touches but may
 
 
@@ -41,6 +43,23 @@ def assumed(scene: Scene, op: OperatingPoint) -> dict[str, Assumption]:
     for nothing.
     """
     return _assumed(scene.at_level(Regression.name), op)
+
+
+def told(scene: Scene, op: OperatingPoint) -> list[tuple[str, ...]]:
+    """Return rows for tables, headed by `HEADS`: each interval and its worth, the largest in friction first."""
+    worth = assumed(scene, op)
+    ranked = sorted(scene.intervals, key=lambda each: -worth[OUTPUTS[0]].parts.get(each.key, 0.0))
+    rows = [
+        (i.key, f"{i.least} to {i.most}", *(_text(o, worth[o].parts.get(i.key, 0.0)) for o in OUTPUTS)) for i in ranked
+    ]
+    return [*rows, ("together", "", *(_text(o, worth[o].together) for o in OUTPUTS))] if rows else []
+
+
+def _text(output: str, half: float) -> str:
+    if output == _SHARE:
+        return f"{half:.2g}" if half >= _LEAST else "-"
+    percent = f"{100.0 * half:.2g} %" if half < 1.0 else f"factor {1.0 + half:.2g}"
+    return percent if half >= _LEAST else "-"
 
 
 @lru_cache(maxsize=64)

@@ -75,7 +75,7 @@ def test_a_value_that_is_given_loses_the_interval_of_its_set_or_its_default():
         ("surface_1.rqq", ["1 nm", "2 nm"], ['intervals."surface_1.rqq" is no number', "tribofmu explain"]),
         ("surface_1.rq", ["2 nm", "1 nm"], ["the least comes first", "Exchange"]),
         ("surface_1.rq", ["1 nm", "2 N"], ["intervals.\"surface_1.rq\" = '2 N'", "wrong unit"]),
-        ("surface_1.rq", "1 nm", ['intervals."surface_1.rq" = \'1 nm\'', "least and the largest"]),
+        ("surface_1.rq", "1 nm", ["intervals.\"surface_1.rq\" = '1 nm'", "least and the largest"]),
     ],
 )
 def test_an_interval_that_cannot_be_is_refused_by_its_key(key, ends, said):
