@@ -6,7 +6,7 @@ errors of `uncertainty`, which are those of solving the scene as it is.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ from . import regression
 from .errors import ContactError
 from .film import Regression
 from .scene import Case, OperatingPoint, Scene
-from .scene.intervals import replaced
+from .scene.intervals import Interval, replaced
 from .state import initial_state
 
 WEAR = "wear_depth"  # of both bodies together: their wear rate now
@@ -36,23 +36,37 @@ class Assumption(NamedTuple):
         return math.hypot(*self.parts.values())
 
 
-def assumed(scene: Scene, op: OperatingPoint) -> dict[str, Assumption]:
+@lru_cache(maxsize=64)
+def assumed(scene: Scene, op: OperatingPoint) -> Mapping[str, Assumption]:
     """Return what the intervals of a scene are worth in each of `OUTPUTS` at an operating point.
 
     Raises ContactError if the regression level has no answer there. An end of an interval at which it has none counts
     for nothing.
     """
-    return _assumed(scene.at_level(Regression.name), op)
+    case = Case.bind(scene.at_level(Regression.name), op)
+    here = _answers(case)
+    parts: dict[str, dict[str, float]] = {name: {} for name in OUTPUTS}
+    for interval in scene.intervals:
+        ends = [_answers_at(case, interval.key, end) for end in interval.ends(scene)]
+        for name in OUTPUTS:
+            half = max((_change(name, here[name], end[name]) for end in ends if end), default=0.0)
+            if half > 0.0:
+                parts[name][interval.key] = half
+    return {name: Assumption(dict(sorted(each.items(), key=lambda x: -x[1]))) for name, each in parts.items()}
 
 
-def told(scene: Scene, op: OperatingPoint) -> list[tuple[str, ...]]:
+def told(intervals: Sequence[Interval], worth: Mapping[str, Assumption]) -> list[tuple[str, ...]]:
     """Return rows for tables, headed by `HEADS`: each interval and its worth, the largest in friction first."""
-    worth = assumed(scene, op)
-    ranked = sorted(scene.intervals, key=lambda each: -worth[OUTPUTS[0]].parts.get(each.key, 0.0))
+    ranked = sorted(intervals, key=lambda each: -worth[OUTPUTS[0]].parts.get(each.key, 0.0))
     rows = [
-        (i.key, f"{i.least} to {i.most}", *(_text(o, worth[o].parts.get(i.key, 0.0)) for o in OUTPUTS)) for i in ranked
+        (
+            each.key,
+            f"{each.least} to {each.most}",
+            *(_text(name, worth[name].parts.get(each.key, 0.0)) for name in OUTPUTS),
+        )
+        for each in ranked
     ]
-    return [*rows, ("together", "", *(_text(o, worth[o].together) for o in OUTPUTS))] if rows else []
+    return [*rows, ("together", "", *(_text(name, worth[name].together) for name in OUTPUTS))] if rows else []
 
 
 def _text(output: str, half: float) -> str:
@@ -62,28 +76,15 @@ def _text(output: str, half: float) -> str:
     return percent if half >= _LEAST else "-"
 
 
-@lru_cache(maxsize=64)
-def _assumed(scene: Scene, op: OperatingPoint) -> dict[str, Assumption]:
-    here = _answers(scene, op)
-    parts: dict[str, dict[str, float]] = {name: {} for name in OUTPUTS}
-    for interval in scene.intervals:
-        ends = [_answers_at(scene, op, interval.key, end) for end in interval.ends(scene)]
-        for name in OUTPUTS:
-            half = max((_change(name, here[name], end[name]) for end in ends if end), default=0.0)
-            if half > 0.0:
-                parts[name][interval.key] = half
-    return {name: Assumption(dict(sorted(each.items(), key=lambda x: -x[1]))) for name, each in parts.items()}
-
-
-def _answers_at(scene: Scene, op: OperatingPoint, key: str, value: float) -> dict[str, float] | None:
+def _answers_at(case: Case, key: str, value: float) -> dict[str, float] | None:
     try:
-        return _answers(replaced(scene, key, value), op)
+        return _answers(Case.bind(replaced(case.scene, key, value), case.op))
     except ContactError:
         return None
 
 
-def _answers(scene: Scene, op: OperatingPoint) -> dict[str, float]:
-    outputs = regression.advance(Case.bind(scene, op), initial_state(scene), 0.0)[1]
+def _answers(case: Case) -> dict[str, float]:
+    outputs = regression.advance(case, initial_state(case.scene), 0.0)[1]
     wear = outputs.wear_rate_1 + outputs.wear_rate_2
     return {name: wear if name == WEAR else float(getattr(outputs, name)) for name in OUTPUTS}
 

@@ -3,6 +3,7 @@
 import json
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import fields
 from typing import Any
 
@@ -49,10 +50,13 @@ def with_half_widths(dataset: xr.Dataset, scene: Scene) -> xr.Dataset:
     if not scene.intervals:
         return dataset
     points = [_rounded(point) for point in _points(dataset)]
-    worth = {point: _worth(scene, point) for point in dict.fromkeys(points)}
+    worth: dict[OperatingPoint, dict[str, float]] = {}
+    for point in dict.fromkeys(points):
+        with suppress(ContactError):  # the regression level has no answer there
+            worth[point] = {name: each.together for name, each in assumed_worth(scene, point).items()}
     halves = {}
     for output in OUTPUTS:
-        relative = np.array([worth[point].get(output, math.nan) for point in points])
+        relative = np.array([worth.get(point, {}).get(output, math.nan) for point in points])
         for name in (output, f"{output}_1", f"{output}_2"):
             if name in dataset.data_vars:
                 variable = dataset.variables[name]
@@ -76,13 +80,6 @@ def _rounded(point: OperatingPoint) -> OperatingPoint:
         for name, value in vars(point).items()
     }
     return OperatingPoint(**digits)
-
-
-def _worth(scene: Scene, point: OperatingPoint) -> dict[str, float]:
-    try:
-        return {output: each.together for output, each in assumed_worth(scene, point).items()}
-    except ContactError:  # the regression level has no answer there
-        return {}
 
 
 def sentence(scene: Scene, dataset: xr.Dataset) -> list[str]:
