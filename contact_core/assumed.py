@@ -19,14 +19,15 @@ from .state import initial_state
 
 WEAR = "wear_depth"  # of both bodies together: their wear rate now
 OUTPUTS = ("friction_coefficient", "h_c", "contact_load_ratio", WEAR)
-HEADS = ("assumed", "between", "friction", "h_c", "W_c (absolute)", "wear rate")
-_SHARE = "contact_load_ratio"
-_LEAST = 1e-3  # half width that is told
+HEADS = ("assumed", "between", "friction", "h_c", "W_c", "wear rate")
+_FILM = "h_c"
+# half widths that are told: of friction and shares, of films [m], of wear relative
+LEAST = {"friction_coefficient": 1e-4, _FILM: 1e-10, "contact_load_ratio": 1e-3, WEAR: 1e-3}
 _UNKNOWN = 1e3  # relative, of wear where nothing touches but may
 
 
 class Assumption(NamedTuple):
-    """Half width of an answer by what a scene assumes: relative, of contact_load_ratio absolute."""
+    """Half width of an answer by what a scene assumes: in the unit of the answer, of wear relative."""
 
     parts: Mapping[str, float]  # by the dotted key of what is assumed, the largest first
 
@@ -62,18 +63,22 @@ def told(intervals: Sequence[Interval], worth: Mapping[str, Assumption]) -> list
         (
             each.key,
             f"{each.least} to {each.most}",
-            *(_text(name, worth[name].parts.get(each.key, 0.0)) for name in OUTPUTS),
+            *(text(name, worth[name].parts.get(each.key, 0.0)) for name in OUTPUTS),
         )
         for each in ranked
     ]
-    return [*rows, ("together", "", *(_text(name, worth[name].together) for name in OUTPUTS))] if rows else []
+    return [*rows, ("together", "", *(text(name, worth[name].together) for name in OUTPUTS))] if rows else []
 
 
-def _text(output: str, half: float) -> str:
-    if output == _SHARE:
-        return f"{half:.2g}" if half >= _LEAST else "-"
-    percent = f"{100.0 * half:.2g} %" if half < 1.0 else f"factor {1.0 + half:.2g}"
-    return percent if half >= _LEAST else "-"
+def text(output: str, half: float) -> str:
+    """Return a half width as text, in words if it is a factor."""
+    if half < LEAST[output]:
+        return "-"
+    if output == _FILM:
+        return f"{1e9 * half:.2g} nm"
+    if output != WEAR:
+        return f"{half:.2g}"
+    return f"{100.0 * half:.2g} %" if half < 1.0 else f"a factor of {1.0 + half:.2g}"
 
 
 def _answers_at(case: Case, key: str, value: float) -> dict[str, float] | None:
@@ -91,6 +96,6 @@ def _answers(case: Case) -> dict[str, float]:
 
 def _change(name: str, here: float, there: float) -> float:
     change = abs(there - here)
-    if name == _SHARE or change == 0.0:
+    if name != WEAR or change == 0.0:
         return change
     return min(change / here, _UNKNOWN) if here > 0.0 else _UNKNOWN
