@@ -234,7 +234,6 @@ def _surfaces(filling: _Filling) -> None:
             filling.give(f"{part}.correlation_length", f"{1e6 * length:.4g} um", why, kind, ends)
         filling.give(f"{part}.seed", seed, "number of the random surface", _NUMERICAL)
         if filling.layered and rq and not filling.has(f"{part}.microroughness"):
-            filling.assumed.append(Assumed(f"{part}.microroughness", _NO_LAW, "a finish gives it", "off"))
             most = f"{1e9 * min(BELOW * rq, _MOST_BELOW):.3g} nm"
             filling.intervals.setdefault(f"{part}.microroughness.rms", ("0 nm", most))
 
@@ -254,7 +253,6 @@ def _finish(filling: _Filling, part: str) -> None:
     except SceneError as error:
         raise SceneError(f"{part}.finish: {error}") from None
     why = f"of a {name} surface: data/finishes.toml"
-    filling.assumed.append(Assumed(f"{part}.finish", name, why))
     filling.give(f"{part}.rq", own["rq"], why, ends=ends["rq"])
     rq, own_rq = filling.number(f"{part}.rq", "m") or 0.0, parse(own["rq"], "m", "rq")
     longest = LONGEST
