@@ -38,6 +38,10 @@ class Base:
     limiting_interval: tuple[float, float]
     conductivity: float  # [W/(m K)]
     conductivity_interval: tuple[float, float]
+    limiting_fall: float  # of the limiting coefficient with temperature [1/K]
+    limiting_fall_interval: tuple[float, float]
+    conductivity_rise: float  # with pressure [1/GPa]
+    conductivity_bend: float  # [1/GPa]
 
     def oil(self, sheet: AstmD341) -> AstmD341:
         """Return the oil of a data sheet with this family's pressure coefficient and bends.

@@ -60,7 +60,8 @@ _LENGTH = 8e-6  # m, of roughness: as in the shipped scenes
 _MOST_BELOW = 1e-7  # m, microroughness that a scene which gives none may have, at most
 _NO_LAYER = "lumped"  # film.criterion that microroughness does not go with
 _REFERENCE = "40 degC"
-_BEND, _STRESS = 0.2, 0.35  # relative half widths of a family's bends and of its Eyring stress
+# relative half widths of a family's bends, its Eyring stress, and the rise of its conductivity
+_BEND, _STRESS, _RISE = 0.2, 0.35, 0.2
 _ROW, _STEADY = "60 s", "60 s"
 _NAME = "contact"
 
@@ -295,12 +296,24 @@ def _oil(filling: _Filling) -> None:
     for name in ("bend_40", "bend_100"):
         filling.give(f"{oil}.{name}", float(f"{getattr(law, name):.3g}"), family, ends=_either_way(_BEND))
     stress = f"{1e-6 * base.eyring_stress(law):.3g} MPa"
-    rheology = {"model": "eyring", "eyring_stress": stress, "limiting_coefficient": base.limiting_coefficient}
-    ends = {"eyring_stress": _either_way(_STRESS), "limiting_coefficient": base.limiting_interval}
+    rheology = {
+        "model": "eyring",
+        "eyring_stress": stress,
+        "limiting_coefficient": base.limiting_coefficient,
+        "limiting_fall": f"{base.limiting_fall:g} K^-1",
+    }
+    falls = (f"{end:g} K^-1" for end in base.limiting_fall_interval)
+    ends = {
+        "eyring_stress": _either_way(_STRESS),
+        "limiting_coefficient": base.limiting_interval,
+        "limiting_fall": tuple(falls),
+    }
     filling.give_law("lubricant.rheology", rheology, f"{family}; the stress is assumed", ends)
-    filling.give("lubricant.conductivity", f"{base.conductivity:g} W/(m K)", family, ends=(
-        f"{base.conductivity_interval[0]:g} W/(m K)", f"{base.conductivity_interval[1]:g} W/(m K)",
-    ))  # fmt: skip
+    conductivities = [f"{end:g} W/(m K)" for end in (base.conductivity, *base.conductivity_interval)]
+    filling.give("lubricant.conductivity", conductivities[0], family, ends=(conductivities[1], conductivities[2]))
+    rise = f"{base.conductivity_rise:g} GPa^-1"
+    filling.give("lubricant.conductivity_rise", rise, family, ends=_either_way(_RISE))
+    filling.give("lubricant.conductivity_bend", f"{base.conductivity_bend:g} GPa^-1", family)
 
 
 def _either_way(share: float) -> Ends:

@@ -78,7 +78,9 @@ def test_density_and_shear():
     assert printed(law, "ratio", {"p": P}, ratio="ρ/ρ_0") == approx(one(law(at(P))), rel=1e-12)
     for law in (Newtonian(), Eyring(5e6), Carreau(4e6, 0.4)):
         stress = one(law(at(2e7), at(P)))
-        assert printed(law, "τ_{oil}", {"τ_N": 2e7}, ",   at most Λ p_f") == approx(stress, rel=1e-12)
+        assert printed(law, "τ_{oil}", {"τ_N": 2e7}, ",   at most Λ p_f exp[β_L (313.15 − T)]") == approx(
+            stress, rel=1e-12
+        )
     law, known = Carreau(4e6, 0.4), {"u_e": 2.0, "η_0": 0.05, "h_s": 2e-7, "S": 0.3}
     thinned = value_of(Carreau.inlet_thinning, "φ", law, known)
     assert thinned == approx(law.film_factor(2e-7, 2.0, 0.05, 0.3), rel=1e-12)
@@ -224,7 +226,7 @@ def test_rolling_resistance():
 
 LAWS = [law for laws in SLOTS.values() for law in laws]
 WITHOUT_DOI = {  # books, theses, standards, papers before there were DOIs, our own
-    *("roelands", "astm_d341", "dowson_higginson", "rounded", "field", "lumped", "critical_temperature"),
+    *("roelands", "astm_d341", "dowson_higginson", "rounded", "field", "lumped", "critical_temperature", "measured"),
 }
 
 
