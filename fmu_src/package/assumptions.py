@@ -3,14 +3,11 @@
 from collections.abc import Iterable
 from dataclasses import replace
 
-from contact_core.assumed import OUTPUTS, assumed
+from contact_core.assumed import LEAST, assumed, text
 from contact_core.errors import ContactError
-from contact_core.quantities import ABSOLUTE, STATED
 from contact_core.scene import Scene
 
 from ..variables import Variable
-
-_LEAST = 1e-3  # half width that is told
 
 
 def with_assumptions(scene: Scene, table: Iterable[Variable]) -> tuple[Variable, ...]:
@@ -19,14 +16,12 @@ def with_assumptions(scene: Scene, table: Iterable[Variable]) -> tuple[Variable,
         worth = assumed(scene, scene.operation.point)
     except ContactError:  # the regression level has no answer there
         return tuple(table)
-    halves = {output: worth[output].together for output in OUTPUTS if worth[output].together >= _LEAST}
+    halves = {name: text(name, each.together) for name, each in worth.items() if each.together >= LEAST[name]}
     return tuple(replace(v, text=f"{v.text}{_words(v, halves)}") for v in table)
 
 
-def _words(variable: Variable, halves: dict[str, float]) -> str:
+def _words(variable: Variable, halves: dict[str, str]) -> str:
     output = variable.name.removesuffix("_1").removesuffix("_2")
     if variable.causality != "output" or output not in halves:
         return ""
-    half = halves[output]
-    said = f"{half:.2g}" if STATED.get(variable.name) in ABSOLUTE else f"{100.0 * half:.2g} %"
-    return f"; by what the scene assumes +- {said} at its own operating point"
+    return f"; by what the scene assumes +- {halves[output]} at its own operating point"

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from contact_core.assumed import HEADS, told
+from contact_core.assumed import HEADS, assumed, told
 from contact_core.errors import ContactError
 from contact_core.quantities import UNSOLVED
 from contact_core.scene import Scene
@@ -47,7 +47,7 @@ def sentences(scene: Scene) -> Iterator[str]:
 def assumptions(scene: Scene) -> list[tuple[str, ...]]:
     """Return the head and the rows of a table of the scene's intervals and their worth at its operating point."""
     try:
-        rows = told(scene, scene.operation.point)
+        rows = told(scene.intervals, assumed(scene, scene.operation.point))
     except ContactError:  # the regression level has no answer there
         return []
     return [HEADS, *rows] if rows else []

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from contact_core.assumed import HEADS, told
+from contact_core.assumed import HEADS, assumed, told
 from contact_core.errors import ContactError
 from contact_core.state import Error
 
@@ -86,7 +86,7 @@ def _assumed(run: Run) -> Iterator[str]:
     if run.scene is None or not run.scene.intervals:
         return
     try:
-        rows = told(run.scene, run.scene.operation.point)
+        rows = told(run.scene.intervals, assumed(run.scene, run.scene.operation.point))
     except ContactError:  # the regression level has no answer there
         return
     yield heading("Beside them: what the scene assumes")

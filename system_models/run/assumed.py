@@ -3,22 +3,21 @@
 import json
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import fields
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from contact_core.assumed import OUTPUTS, Assumption
+from contact_core.assumed import LEAST, OUTPUTS, WEAR, Assumption, text
 from contact_core.assumed import assumed as assumed_worth
 from contact_core.errors import ContactError
 from contact_core.scene import Assumed, OperatingPoint, Scene
 
 from ..store.results import ASSUMED
-from .half_widths import SHARES
 
 _WORDS = {"friction_coefficient": "friction", "h_c": "film", "contact_load_ratio": "W_c", "wear_depth": "wear"}
-_LEAST = 1e-3  # half width that is told
 _MUCH, _MOST = 0.3, 3  # share of a half width from which on its cause is named, and how many are
 ATTRIBUTE = "assumed_json"  # of a result: key, value, where it comes from, kind of each
 
@@ -49,14 +48,17 @@ def with_half_widths(dataset: xr.Dataset, scene: Scene) -> xr.Dataset:
     if not scene.intervals:
         return dataset
     points = [_rounded(point) for point in _points(dataset)]
-    worth = {point: _worth(scene, point) for point in dict.fromkeys(points)}
+    worth: dict[OperatingPoint, dict[str, float]] = {}
+    for point in dict.fromkeys(points):
+        with suppress(ContactError):  # the regression level has no answer there
+            worth[point] = {name: each.together for name, each in assumed_worth(scene, point).items()}
     halves = {}
     for output in OUTPUTS:
-        relative = np.array([worth[point].get(output, math.nan) for point in points])
+        halved = np.array([worth.get(point, {}).get(output, math.nan) for point in points])
         for name in (output, f"{output}_1", f"{output}_2"):
             if name in dataset.data_vars:
                 variable = dataset.variables[name]
-                half = relative if output in SHARES else relative * np.abs(variable.values)
+                half = halved * np.abs(variable.values) if output == WEAR else halved
                 text = f"half width of {name} by what the scene assumes"
                 attributes = {"units": variable.attrs.get("units", "1"), "long_name": text}
                 halves[f"{name}{ASSUMED}"] = (variable.dims, half, attributes)
@@ -78,13 +80,6 @@ def _rounded(point: OperatingPoint) -> OperatingPoint:
     return OperatingPoint(**digits)
 
 
-def _worth(scene: Scene, point: OperatingPoint) -> dict[str, float]:
-    try:
-        return {output: each.together for output, each in assumed_worth(scene, point).items()}
-    except ContactError:  # the regression level has no answer there
-        return {}
-
-
 def sentence(scene: Scene, dataset: xr.Dataset) -> list[str]:
     """Return a line on the half widths by what a scene assumes at the end of its run, and on what most of them is."""
     if not scene.intervals or not dataset.sizes.get("time"):
@@ -93,18 +88,11 @@ def sentence(scene: Scene, dataset: xr.Dataset) -> list[str]:
         worth = assumed_worth(scene, _points(dataset.isel(time=[-1]))[0])
     except ContactError:
         return []
-    parts = [f"{_WORDS[output]} {_told(output, each)}" for output, each in worth.items() if each.together > _LEAST]
+    parts = [f"{_WORDS[name]} {_told(name, each)}" for name, each in worth.items() if each.together >= LEAST[name]]
     return [f"Assumed, beside these errors: {'; '.join(parts)}."] if parts else []
 
 
 def _told(output: str, worth: Assumption) -> str:
     """Return a half width, and the assumptions that make most of it."""
-    absolute = output in SHARES
     most = [key for key, half in worth.parts.items() if half > _MUCH * worth.together][:_MOST]
-    return f"+- {_number(worth.together, absolute)} (by {', '.join(most)})"
-
-
-def _number(half: float, absolute: bool) -> str:
-    if absolute:
-        return f"{half:.2g}"
-    return f"{100.0 * half:.2g} %" if half < 1.0 else f"a factor of {1.0 + half:.2g}"
+    return f"+- {text(output, worth.together)} (by {', '.join(most)})"

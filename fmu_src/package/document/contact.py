@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from contact_core.assumed import HEADS, told
+from contact_core.assumed import HEADS, assumed, told
 from contact_core.errors import ContactError
 from contact_core.scene import Scene, SelfAffine, Surface
 
@@ -194,7 +194,7 @@ def assumptions(scene: Scene) -> Iterator[str]:
         "They come beside the errors above."
     )
     try:
-        rows = told(scene, scene.operation.point)
+        rows = told(scene.intervals, assumed(scene, scene.operation.point))
     except ContactError as error:
         yield paragraph(str(error))
         return
