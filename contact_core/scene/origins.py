@@ -114,7 +114,8 @@ def origins(
     kept = {key: value for key, value in flat(original).items() if flat(written).get(key) == value}
     sets = dict([*_sets(original), *_sets(written)])  # a setting of `model` writes out what a set had said
     comments = comments_of(text_of(source))
-    return {key: _origin(key, kept, comments, changes, chosen, sets) for key in flat(table)}
+    values = (key for key in flat(table) if key != "intervals")
+    return {key: _origin(key, kept, comments, changes, chosen, sets) for key in values}
 
 
 class _Set(NamedTuple):
