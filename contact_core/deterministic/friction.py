@@ -146,8 +146,8 @@ def derivatives(case: Case, film: Film) -> dict[str, float]:
     def force(stress: Array) -> float:
         return -float((stress * along_x).sum()) * cell
 
-    gripping = film.fluid * boundary.grip_slope(speed) * left
-    by_speed = by_newtonian * viscosity / film.gap + by_pressure * gripping + solid_by_speed
+    by_grip = by_pressure * film.fluid * left
+    by_speed = by_newtonian * viscosity / film.gap + by_grip * boundary.grip_slope(speed) + solid_by_speed
     if np.ndim(speed):  # along the sliding the law decides, across it the direction
         across = (oil.rheology(newtonian, limiting) + solid) / np.maximum(speed, 1e-300)
         by_speed = by_speed * np.square(along_x) + across * np.square(along_y)

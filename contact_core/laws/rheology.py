@@ -21,6 +21,7 @@ from .equations import Equations
 Array = NDArray[np.float64]
 
 _LIMIT_AT = 313.15  # K, temperature to which a limiting coefficient belongs
+_LIMIT = "τ_L = Λ p_f exp[β_L (T_L − T)]"
 _OF_THE_LIMIT = "Λ: limiting_coefficient; 0 means no limit."
 _EASIEST = 500.0  # at e^500 times the Newtonian shear rate a film slips: no need to overflow
 
@@ -88,12 +89,14 @@ class Newtonian(_Limited):
     name: ClassVar[str] = "newtonian"
     source: ClassVar[str] = "limit: Bair & Winer, J. Lubr. Technol. 101 (1979) 258, doi:10.1115/1.3453342"
     equations: ClassVar[Equations] = Equations(
-        ("τ_{oil} = τ_N,   at most Λ p_f exp[β_L (313.15 − T)]",),
+        ("τ_{oil} = τ_N,   at most τ_L", _LIMIT),
         _OF_THE_LIMIT,
         symbols={
             "Λ": "limiting_coefficient",
             "β_L": "limiting_fall",
             "T": "temperature of the oil [K]",
+            "T_L": "40 degC, to which Λ belongs [K]",
+            "τ_L": "limiting shear stress [Pa]",
         },
         left_out=(
             "Shear thinning of the oil: thin films that slide fast rub more than they would, once the Newtonian "
@@ -125,12 +128,14 @@ class Eyring(_Limited):
         "Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129; limit: Bair & Winer 1979, doi:10.1115/1.3453342"
     )
     equations: ClassVar[Equations] = Equations(
-        ("τ_{oil} = τ_E arsinh(τ_N/τ_E),   at most Λ p_f exp[β_L (313.15 − T)]",),
+        ("τ_{oil} = τ_E arsinh(τ_N/τ_E),   at most τ_L", _LIMIT),
         _OF_THE_LIMIT,
         symbols={
             "Λ": "limiting_coefficient",
             "β_L": "limiting_fall",
             "T": "temperature of the oil [K]",
+            "T_L": "40 degC, to which Λ belongs [K]",
+            "τ_L": "limiting shear stress [Pa]",
             "τ_E": "eyring_stress",
         },
     )
@@ -164,12 +169,14 @@ class Carreau(_Limited):
         "1979, doi:10.1115/1.3453342"
     )
     equations: ClassVar[Equations] = Equations(
-        ("τ_{oil} = τ_N [1 + (τ_N/G)^2]^{(n − 1)/2},   at most Λ p_f exp[β_L (313.15 − T)]",),
+        ("τ_{oil} = τ_N [1 + (τ_N/G)^2]^{(n − 1)/2},   at most τ_L", _LIMIT),
         _OF_THE_LIMIT,
         symbols={
             "Λ": "limiting_coefficient",
             "β_L": "limiting_fall",
             "T": "temperature of the oil [K]",
+            "T_L": "40 degC, to which Λ belongs [K]",
+            "τ_L": "limiting shear stress [Pa]",
             "G": "critical_stress",
             "n": "exponent",
         },

@@ -7,6 +7,7 @@
     oils            measured: viscosities of the named oils
     base_oils       measured: pressure coefficients by two viscosities and a family
     zddp_films      measured: tribofilms and friction of ZDDP
+    traction        measured: friction of full films
     film_formulas   published numerical: films of points and lines
     starvation      published numerical: films of too little oil
     dry_contact     closed form: Hertz's contact

@@ -16,6 +16,7 @@ from . import (
     starvation,
     stresses,
     thesis,
+    traction,
     tribofilm,
     zddp_films,
 )
@@ -27,6 +28,7 @@ COMPARISONS: dict[str, Comparison] = {
     "oils": oils.COMPARISON,
     "base_oils": base_oils.COMPARISON,
     "zddp_films": zddp_films.COMPARISON,
+    "traction": traction.COMPARISON,
     "film_formulas": film_formulas.COMPARISON,
     "starvation": starvation.COMPARISON,
     "dry_contact": dry_contact.COMPARISON,
