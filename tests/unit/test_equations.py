@@ -225,6 +225,7 @@ def test_rolling_resistance():
 LAWS = [law for laws in SLOTS.values() for law in laws]
 WITHOUT_DOI = {  # books, theses, standards, papers before there were DOIs, our own
     *("roelands", "astm_d341", "dowson_higginson", "rounded", "field", "lumped", "critical_temperature"),
+    "measured",
 }
 
 
