@@ -15,7 +15,7 @@ from contact_core.assumed import LEAST, OUTPUTS, WEAR, Assumption, text
 from contact_core.assumed import assumed as assumed_worth
 from contact_core.errors import ContactError
 from contact_core.film import Regression
-from contact_core.scene import Assumed, OperatingPoint, Scene
+from contact_core.scene import Assumed, Case, OperatingPoint, Scene
 from contact_core.scene.intervals import replaced
 
 from ..store.results import ASSUMED
@@ -83,8 +83,9 @@ def _rounded(point: OperatingPoint) -> OperatingPoint:
     return OperatingPoint(**digits)
 
 
-def of_microroughness(scene: Scene, op: OperatingPoint) -> str:
+def of_microroughness(case: Case) -> str:
     """Return a sentence on friction by the regression level, without and with the roughness that a scene leaves out."""
+    scene, op = case.scene, case.op
     worth = {i.key: i.ends(scene)[1] for i in scene.intervals if i.key.endswith("microroughness.rms")}
     fast = scene.at_level(Regression.name)
     rough = fast

@@ -145,7 +145,7 @@ def _below_the_grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
         return []
     return [
         f"Roughness: {' and '.join(bare)} give none below the grid, on which solid contact depends at this lambda: "
-        f"{assumed.of_microroughness(scene, thinnest.op)}Take finish = 'ground', 'polished', ... or microroughness."
+        f"{assumed.of_microroughness(thinnest)}Take finish = 'ground', 'polished', ... or microroughness."
     ]
 
 

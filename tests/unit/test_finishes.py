@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core import Scene, SceneError
+from contact_core import Measured, Scene, SceneError
 from contact_core.scene.finishes import FILE, ends_of_finish, finishes
+from contact_core.scene.origins import comments_of, origins
 from contact_core.scene.toml import read_table
 from contact_core.scene.units import parse
 from system_models.run import trust
@@ -23,6 +24,8 @@ FACTS = {
     },
     "operation": {"load": "50 N", "speed_1": "0.125 m/s", "speed_2": "0.075 m/s", "temperature": "100 degC"},
 }
+
+HAND = (("10 nm", "2 nm"), ("25 nm", "5 nm"))
 
 
 def scene(first, second) -> Scene:
@@ -103,9 +106,45 @@ def test_a_scene_that_leaves_roughness_below_the_grid_out_says_what_that_is_wort
 
 
 def test_the_crown_of_a_measured_roller_is_straight_in_the_middle_and_as_deep_at_its_ends_as_it_says():
-    from contact_core.laws.profile import Measured
-
     drop = Measured(ends=12e-6).drop(np.array([0.0, 1.5e-3, 5e-3]), 10e-3)
     assert drop[:2] == approx([0.0, 0.0], abs=1e-12)
     assert drop[2] == approx(12e-6, rel=1e-6)
     assert math.isinf(Measured().drop(np.array([5.1e-3]), 10e-3)[0])
+
+
+def test_the_crown_is_that_of_the_measured_roller():
+    at = np.array([0.0, 0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0])
+    found = np.array([0.0, 0.002, 0.02, 0.057, 0.134, 0.257, 0.411, 0.65, 1.0])  # NU206-RE-1, even about the middle
+    assert Measured().drop(0.5 * at * 9.4e-3, 9.4e-3) / 11.3e-6 == approx(found, abs=0.03)
+
+
+def test_a_finish_is_as_good_as_microroughness_by_hand():
+    by_hand = [{"rq": rq, "microroughness": {"rms": rms, "longest": "4 um"}} for rq, rms in HAND]
+    assert (
+        scene(*by_hand).surface_2.microroughness
+        == scene(*({"rq": rq, "finish": "polished"} for rq, _ in HAND)).surface_2.microroughness
+    )
+
+
+def test_beside_a_short_correlation_length_no_wave_counts_twice():
+    short = scene({"finish": "polished", "correlation_length": "3 um"}, {"rq": "0 nm"}).surface_1
+    usual = scene({"finish": "polished"}, {"rq": "0 nm"}).surface_1.microroughness
+    longest = short.microroughness.longest
+    assert longest == approx(0.99 * 2.0 * math.pi / 9.0 * 3e-6, rel=3e-3)
+    assert short.microroughness.rms == approx(usual.rms * math.sqrt(longest / 4e-6), rel=5e-3)
+    assert not any("twice" in said for said in short.warnings(1e-9))  # on the finest of grids
+
+
+def test_a_setting_of_finish_replaces_what_the_scene_gives_and_is_told_with_its_source():
+    settings = {"surface_2.finish": "lapped", "surface_2.rq": "50 nm"}
+    found = Scene.from_toml("mtm_zddp", settings)
+    assert (found.surface_2.rq, found.surface_2.correlation_length) == approx((50e-9, 8e-6), rel=1e-12)
+    assert found.surface_2.microroughness.rms == approx(10e-9, rel=1e-12)
+    origin = origins("mtm_zddp", found.to_dict(), settings)["surface_2.microroughness.rms"]
+    assert origin.set_name == "lapped, finishes.toml" and origin.word == "assumed"
+
+
+def test_every_value_of_a_finish_has_a_source_or_is_assumed():
+    remarks = comments_of(FILE.read_text("utf-8")).by_key
+    keys = ("rq", "correlation_length", "lay", "microroughness")
+    assert [f"{name}.{key}" for name in finishes() for key in keys if f"{name}.{key}" not in remarks] == []
