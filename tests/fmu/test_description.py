@@ -12,7 +12,8 @@ from fmpy.validation import validate_fmu
 from fmu_host import SHAPES
 
 from contact_core import Scene
-from contact_core.assumed import assumed, text
+from contact_core.assumed import assumed
+from contact_core.assumed import text as words
 from contact_core.quantities import INPUTS, OF_CALLER, OUTPUTS
 from contact_core.scene import tunables
 from contact_core.state import Outputs
@@ -289,6 +290,6 @@ def test_outputs_say_what_the_assumptions_of_the_scene_are_worth(by_name, scene)
     worth = assumed(scene, scene.operation.point)
     for name, each in worth.items():
         for output in {name, f"{name}_1"} & set(by_name):
-            said = f"by what the scene assumes +- {text(name, each.together)} at its own operating point"
+            said = f"by what the scene assumes +- {words(name, each.together)} at its own operating point"
             assert by_name[output].description.endswith(said)
     assert "assumes" not in by_name["lambda_ratio"].description
