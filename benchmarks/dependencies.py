@@ -114,6 +114,7 @@ PAGES: dict[str, Source] = {
     "surfaces/transition": Source("surfaces.transition", (*LEVELS, *SHAPES)),
     "surfaces/asperity_layer": Source("surfaces.asperity_layer", ("film",)),
     "surfaces/grids": Source("surfaces.grids", ("film", "evolution", "control", "data", "azam_case_a")),
+    "surfaces/finishes": Source("surfaces.finishes", ()),
     "surfaces/hardness": Source("surfaces.hardness", ("film", "evolution", "control", *CIRCLES)),
     "surfaces/film_wear": Source(
         "surfaces.film_wear", ("film", "evolution", "regression", "control", "data", "azam_case_a")

@@ -14,8 +14,9 @@ from typing import Any, NamedTuple
 
 from ..errors import SceneError
 from ..laws.viscosity import AstmD341
+from .finishes import LAYS, LENGTH_PER_RQ, LONGEST, longest_below, part_below, values_of_finish
 from .records import ACCURACY
-from .toml import models_of, with_named_set
+from .toml import did_you_mean, models_of, with_named_set
 from .units import parse
 
 
@@ -48,7 +49,8 @@ _LAWS: dict[str, tuple[dict[str, Any], str]] = {
 _PLASTICITY = {"set": "steel"}
 _CONTROL = {"change": "3 nm", "dry_above": 0.8, "input_change": 0.02}
 _FLOOR = "1 nm"
-_LENGTH, _LENGTH_PER_RQ = 8e-6, 40.0  # of roughness: as in the shipped scenes; rms slopes stay below 0.05
+_LENGTH = 8e-6  # m, of roughness: as in the shipped scenes
+_NO_LAYER = "lumped"  # film.criterion that microroughness does not go with
 _REFERENCE = "40 degC"
 _ROW, _STEADY = "60 s", "60 s"
 _NAME = "contact"
@@ -143,10 +145,23 @@ class _Filling:
         except SceneError:
             return None
 
+    @property
+    def layered(self) -> bool:
+        """True unless the film's criterion does not go with roughness below the grid."""
+        return bool(self.get("film.criterion") != _NO_LAYER)
+
     def acts(self, part: str) -> bool:
         """Return True if the table chooses a law other than 'none' for a slot."""
         given = self.get(part)
         return given is not None and (given.get("model") if isinstance(given, Mapping) else given) != _NO_LAW
+
+    def taken(self, part: str) -> dict[str, Any]:
+        """Return `finish` and `lay` of a surface and leave them out of its table, in which its set is written out."""
+        surface = {key: value for key, value in self.known[part].items() if key not in ("finish", "lay")}
+        said = {key: value for key, value in self.known[part].items() if key not in surface}
+        self.known[part] = surface
+        self.table[part] = copy.deepcopy(surface)
+        return said
 
     def name(self) -> None:
         """Set name and description, and empty tables for those that are missing: their keys will be named."""
@@ -178,13 +193,51 @@ def _surfaces(filling: _Filling) -> None:
     for seed, part in enumerate(("surface_1", "surface_2"), 1):
         if filling.has(f"{part}.heights"):
             filling.give(f"{part}.rq", "0 nm", "the file of heights is all of the roughness")
+        if filling.has(f"{part}.finish") or filling.has(f"{part}.lay"):
+            _finish(filling, part)
         rq = filling.number(f"{part}.rq", "m")
         if filling.get(f"{part}.model") in (None, "gaussian"):
-            length = max(_LENGTH, _LENGTH_PER_RQ * (rq or 0.0))
+            length = max(_LENGTH, LENGTH_PER_RQ * (rq or 0.0))
             why = "without effect on a smooth body" if rq == 0.0 else "assumed: 8 um as in the shipped scenes, or 40 Rq"
             kind = _NUMERICAL if rq == 0.0 else "assumed"
             filling.give(f"{part}.correlation_length", f"{1e6 * length:.4g} um", why, kind)
         filling.give(f"{part}.seed", seed, "number of the random surface", _NUMERICAL)
+        if filling.layered and (rq or filling.has(f"{part}.heights")) and not filling.has(f"{part}.microroughness"):
+            filling.assumed.append(Assumed(f"{part}.microroughness", _NO_LAW, "a finish gives it", "off"))
+
+
+def _finish(filling: _Filling, part: str) -> None:
+    """Set what the finish of a surface says, but for what the scene says itself."""
+    said = filling.taken(part)
+    lay = said.get("lay")
+    if "finish" not in said or lay not in (None, *LAYS):
+        raise SceneError(
+            f"{part}.lay = {lay!r} must be 'along' or 'across' the motion, beside {part}.finish."
+            f"{did_you_mean(str(lay), list(LAYS))}"
+        )
+    name = str(said["finish"])
+    try:
+        own = values_of_finish(name)
+    except SceneError as error:
+        raise SceneError(f"{part}.finish: {error}") from None
+    why = f"of a {name} surface: data/finishes.toml"
+    filling.assumed.append(Assumed(f"{part}.finish", name, why))
+    filling.give(f"{part}.rq", own["rq"], why)
+    rq, own_rq = filling.number(f"{part}.rq", "m") or 0.0, parse(own["rq"], "m", "rq")
+    longest = LONGEST
+    if filling.get(f"{part}.model") in (None, "gaussian"):
+        length = max(parse(own["correlation_length"], "m", "correlation_length"), LENGTH_PER_RQ * rq)
+        along, across = (own["lay"] if lay == each and own["lay"] > 1 else 1.0 for each in LAYS)
+        filling.give(f"{part}.correlation_length", f"{1e6 * along * length:.4g} um", why)
+        if along != across:
+            filling.give(f"{part}.correlation_length_across", f"{1e6 * across * length:.4g} um", why)
+        lengths = (filling.number(f"{part}.{key}", "m") for key in ("correlation_length", "correlation_length_across"))
+        longest = longest_below(min(found for found in lengths if found))
+    if not filling.layered:
+        return
+    below = parse(own["microroughness"]["rms"], "m", "rms") * part_below(rq, own_rq) * math.sqrt(longest / LONGEST)
+    filling.give(f"{part}.microroughness.rms", f"{1e9 * below:.3g} nm", why)
+    filling.give(f"{part}.microroughness.longest", f"{1e6 * longest:.3g} um", why)
 
 
 def _oil(filling: _Filling) -> None:

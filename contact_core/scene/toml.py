@@ -35,7 +35,13 @@ _USUAL = {"geometry", "surface_1", "surface_2"}  # without a `model`: the first 
 _UNNAMED = Surface  # its tables have never had a `model`, and stored states go by their text
 _DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data sheet"
 NO_UTF_8 = "it is not in UTF-8. Save it as UTF-8."  # in place of Python's words on a byte
-_TOO = {"operation.duration": " `tribofmu run` takes it as --hours, too."}
+_FINISH = " Or name its finish, such as finish = 'ground' or 'polished', which has a usual value."
+_TOO = {
+    "operation.duration": " `tribofmu run` takes it as --hours, too.",
+    "surface_1.rq": _FINISH,
+    "surface_2.rq": _FINISH,
+}
+_OF_FINISH = ("rq", "correlation_length", "correlation_length_across", "microroughness")
 _SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
 
 
@@ -151,7 +157,7 @@ def override(table: dict[str, Any], key: str, value: str) -> None:
     """Set a dotted key.
 
     A new `model` keeps the keys it shares with the old one and drops the others; a new `set`, or list of sets, drops
-    all other keys; `seed` drops the list `seeds`;
+    all other keys; `seed` drops the list `seeds`; `finish` drops the keys that it gives;
     `control.accuracy` drops those that it chooses, but for film.domain.
     """
     if key == ACCURACY:
@@ -174,6 +180,9 @@ def override(table: dict[str, Any], key: str, value: str) -> None:
         table.clear()
     if last == "seed":
         table.pop("seeds", None)
+    if last == "finish" and table.get(last) != value:
+        for each in _OF_FINISH:
+            table.pop(each, None)
     table[last] = value
 
 
@@ -286,6 +295,8 @@ _SET_FILES = {
     "stress": "fatigue",
     "fatigue": "fatigue",
     "scuffing": "scuffing",
+    "surface_1": "surfaces",
+    "surface_2": "surfaces",
 }
 
 
@@ -348,8 +359,7 @@ def with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
         where = f" in '{file}'" if _OF_FILE in chosen else ""
         known = f"Known are {', '.join(sets)}." if sets else f"There is no [NAME.{path}] in that file."
         raise SceneError(f"[{path}] has no set '{name}'{where}.{did_you_mean(name, list(sets))} {known}")
-    own = _beside(sets[name], file.parent) if _OF_FILE in chosen else sets[name]
-    return _merged(own, table, path)
+    return _merged(_beside(sets[name], file.parent), table, path)
 
 
 def _beside(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
@@ -441,7 +451,7 @@ def override_order(item: tuple[str, str]) -> int:
     """Return the rank in which an override is applied: sets, models and accuracy first; they decide on other keys."""
     if item[0] in ensemble.LISTS:  # before the member that is picked of them
         return -1
-    return {"set": 0, "model": 1, "accuracy": 2}.get(item[0].rpartition(".")[2], 0 if item[0] in ensemble.FILES else 3)
+    return {"set": 0, "model": 1, "accuracy": 2, "finish": 2}.get(item[0].rpartition(".")[2], 0 if item[0] in ensemble.FILES else 3)
 
 
 def completed(table: Mapping[str, Any]) -> dict[str, Any]:
