@@ -4,7 +4,7 @@ import difflib
 import pickle
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
 from functools import lru_cache
 from importlib.resources import files
@@ -33,7 +33,7 @@ _KINDS: dict[str, tuple[type[Model], ...]] = {
 }
 _USUAL = {"geometry", "surface_1", "surface_2"}  # without a `model`: the first kind
 _UNNAMED = Surface  # its tables have never had a `model`, and stored states go by their text
-_DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data sheet"
+DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data sheet"
 NO_UTF_8 = "it is not in UTF-8. Save it as UTF-8."  # in place of Python's words on a byte
 _FINISH = " Or name its finish, such as finish = 'ground' or 'polished', which has a usual value."
 _TOO = {
@@ -99,7 +99,15 @@ def given(source: str | Path, overrides: Mapping[str, str]) -> tuple[dict[str, A
             table[path] = _with_file(table.get(path, {}), value, folders)
         else:
             override(table, key, located({last: value}, *reversed(folders))[last])
+    if isinstance(table.get("intervals"), Mapping):
+        table["intervals"] = _still_assumed(table["intervals"], changes)
     return table, folders
+
+
+def _still_assumed(intervals: Mapping[str, Any], changes: Iterable[str]) -> dict[str, Any]:
+    """Return the intervals of values that no change of a dotted key, or of its set or model, has replaced."""
+    roots = [key.removesuffix(".set").removesuffix(".model") for key in changes]
+    return {k: ends for k, ends in intervals.items() if not any(f"{k}.".startswith(f"{root}.") for root in roots)}
 
 
 def _with_file(surface: Mapping[str, Any], file: str, folders: tuple[Path, ...]) -> dict[str, Any]:
@@ -400,7 +408,7 @@ def _missing(full: str, f: "Field[Any]") -> Missing:
         unit = f" [{unit}]" if unit else ""
         return Missing(full, f"{unit} ({text})".strip(), f"Give it{unit}: {text}.{_TOO.get(full, '')}")
     if models:
-        sheet = f"{_DATA_SHEET}, or " if full == "lubricant.viscosity" else ""
+        sheet = f"{DATA_SHEET}, or " if full == "lubricant.viscosity" else ""
         text = f"{sheet}a 'model': {', '.join(law.name for law in models)}{instead}"
         return Missing(full, f"({text})", f"Add the table, with {text}.")
     if f.type in (str, "str"):
@@ -425,7 +433,7 @@ def unbuild(record: Any) -> dict[str, Any]:
     table: dict[str, Any] = {"model": record.name} if named else {}
     for f in fields(record):
         value = getattr(record, f.name)
-        if value is None:
+        if value is None or value == ():
             continue
         if is_dataclass(value):
             table[f.name] = unbuild(value)
@@ -451,7 +459,9 @@ def override_order(item: tuple[str, str]) -> int:
     """Return the rank in which an override is applied: sets, models and accuracy first; they decide on other keys."""
     if item[0] in ensemble.LISTS:  # before the member that is picked of them
         return -1
-    return {"set": 0, "model": 1, "accuracy": 2, "finish": 2}.get(item[0].rpartition(".")[2], 0 if item[0] in ensemble.FILES else 3)
+    return {"set": 0, "model": 1, "accuracy": 2, "finish": 2}.get(
+        item[0].rpartition(".")[2], 0 if item[0] in ensemble.FILES else 3
+    )
 
 
 def completed(table: Mapping[str, Any]) -> dict[str, Any]:

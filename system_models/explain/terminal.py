@@ -159,6 +159,11 @@ def _left_out(absent: tuple[Absent, ...], width: int) -> Iterator[str]:
 def _trust(explanation: Explanation, width: int) -> Iterator[str]:
     for sentence in explanation.trust:
         yield from _wrapped(sentence, width, "  ", "  ")
+    if explanation.assumed:
+        yield ""
+        wides = [max(map(len, column)) for column in zip(*explanation.assumed, strict=True)]
+        for row in explanation.assumed:
+            yield "  " + "  ".join(cell.ljust(wide) for cell, wide in zip(row, wides, strict=True))
     yield ""
     wide = max(len(quantity) for quantity, _, _ in explanation.validity)
     values = max(len(here) for _, here, _ in explanation.validity)

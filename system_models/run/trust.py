@@ -151,7 +151,7 @@ def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
     return [f"Grid: {nodes:.1f} nodes across the contact; below {_FEW:g} the film is one of the grid. Take {finer}."]
 
 
-def legend(halves: str = "error (95 %)") -> list[str]:
+def legend(halves: str = "error (95 %), and in brackets the half width by what is assumed") -> list[str]:
     """Return what the columns of the table are; halves: what stands behind +-."""
     columns = "; ".join(f"{heading}: {meaning}" for heading, meaning in _LEGEND.items())
     return wrapped(f"Columns: {columns}; +-: {halves}.")
@@ -163,7 +163,8 @@ def after(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> lis
     `errors` are those of the last state by `contact_core.uncertainty`; empty if that is not known.
     """
     known = verdict.sentence(scene, dataset, errors)
-    return wrapped(*flags.sentences(scene, dataset), known, *assumed.not_in_errors(dataset.attrs))
+    worth = assumed.sentence(scene, dataset)
+    return wrapped(*flags.sentences(scene, dataset), known, *worth, *assumed.not_in_errors(dataset.attrs))
 
 
 def width() -> int:

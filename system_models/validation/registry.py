@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from contact_core.errors import ContactError
 
 from . import (
+    base_oils,
     dimple,
     dry_contact,
     film_formulas,
@@ -24,6 +25,7 @@ COMPARISONS: dict[str, Comparison] = {
     "optical_films": optical_films.COMPARISON,
     "dimple": dimple.COMPARISON,
     "oils": oils.COMPARISON,
+    "base_oils": base_oils.COMPARISON,
     "zddp_films": zddp_films.COMPARISON,
     "film_formulas": film_formulas.COMPARISON,
     "starvation": starvation.COMPARISON,
