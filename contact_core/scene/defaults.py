@@ -16,7 +16,16 @@ from ..errors import SceneError
 from ..laws.viscosity import AstmD341
 from ..quantities import out_of_range
 from .bases import USUAL, Base, base_of
-from .finishes import BELOW, LAYS, LENGTH_PER_RQ, LONGEST, ends_of_finish, longest_below, part_below, values_of_finish
+from .finishes import (
+    LAYS,
+    LENGTH_PER_RQ,
+    LONGEST,
+    MOST_BELOW,
+    ends_of_finish,
+    longest_below,
+    part_below,
+    values_of_finish,
+)
 from .intervals import Ends, listed, of_sets
 from .records import ACCURACY
 from .toml import DATA_SHEET, did_you_mean, models_of, with_named_set
@@ -57,7 +66,7 @@ _PLASTICITY = {"set": "steel"}
 _CONTROL = {"change": "3 nm", "dry_above": 0.8, "input_change": 0.02}
 _FLOOR = "1 nm"
 _LENGTH = 8e-6  # m, of roughness: as in the shipped scenes
-_MOST_BELOW = 1e-7  # m, microroughness that a scene which gives none may have, at most
+_BELOW_LIMIT = 1e-7  # m, microroughness that a scene which gives none may have, at most
 _NO_LAYER = "lumped"  # film.criterion that microroughness does not go with
 _REFERENCE = "40 degC"
 _BEND, _STRESS = 0.2, 0.35  # relative half widths of a family's bends and of its Eyring stress
@@ -158,9 +167,14 @@ class _Filling:
 
     def list_intervals(self) -> None:
         """Set the intervals of sets and defaults, which those of the scene itself replace, as a list."""
+        if isinstance(self.table.get("intervals", {}), Mapping):
+            self.table["intervals"] = listed({**self.intervals, **self.own_intervals})
+
+    @property
+    def own_intervals(self) -> Mapping[str, Ends]:
+        """The intervals that the scene itself gives."""
         own = self.table.get("intervals", {})
-        if isinstance(own, Mapping):
-            self.table["intervals"] = listed({**self.intervals, **own})
+        return own if isinstance(own, Mapping) else {}
 
     def needs(self, part: str, field: str) -> bool:
         """Return True if the record that the table chooses has a field without a default of its own."""
@@ -233,10 +247,16 @@ def _surfaces(filling: _Filling) -> None:
             ends = None if rq == 0.0 else ("-50 %", "+100 %")
             filling.give(f"{part}.correlation_length", f"{1e6 * length:.4g} um", why, kind, ends)
         filling.give(f"{part}.seed", seed, "number of the random surface", _NUMERICAL)
-        if filling.layered and rq and not filling.has(f"{part}.microroughness"):
-            filling.assumed.append(Assumed(f"{part}.microroughness", _NO_LAW, "a finish gives it", "off"))
-            most = f"{1e9 * min(BELOW * rq, _MOST_BELOW):.3g} nm"
-            filling.intervals.setdefault(f"{part}.microroughness.rms", ("0 nm", most))
+        _below(filling, part, rq or 0.0)
+
+
+def _below(filling: _Filling, part: str, rq: float) -> None:
+    """Set the interval of the roughness below the grid of a surface that gives none."""
+    key = f"{part}.microroughness.rms"
+    if not filling.layered or rq == 0.0 or filling.has(f"{part}.microroughness") or key in filling.own_intervals:
+        return
+    filling.assumed.append(Assumed(f"{part}.microroughness", _NO_LAW, "a finish gives it", "off"))
+    filling.intervals[key] = ("0 nm", f"{1e9 * min(MOST_BELOW * rq, _BELOW_LIMIT):.3g} nm")
 
 
 def _finish(filling: _Filling, part: str) -> None:

@@ -1,5 +1,9 @@
 """What a run says of itself: the contact before it; columns, flags in numbers and a verdict after it."""
 
+import re
+from importlib import resources
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -50,6 +54,25 @@ def test_pressure_motion_film_and_regime_are_told_before_the_run() -> None:
 )
 def test_the_regime_follows_from_the_film(name: str, changes: dict[str, str], word: str) -> None:
     assert word in before(name, **changes)
+
+
+def test_thin_films_of_no_known_roughness_below_the_grid_say_what_it_is_worth_and_the_way_out(tmp_path: Path) -> None:
+    finished = resources.files("system_models.cli").joinpath("new_scene.toml").read_text("utf-8")
+    bare = "\n".join(line for line in finished.splitlines() if not line.startswith("finish"))
+    told = {}
+    for name, text in (("finished", finished), ("bare", bare)):
+        (tmp_path / f"{name}.toml").write_text(text)
+        told[name] = before(str(tmp_path / f"{name}.toml"))
+    worth = re.search(r"friction (\S+), (\S+) to (\S+) by the roughness below the grid", told["bare"])
+    assert worth, told["bare"]
+    friction, least, most = map(float, worth.groups())
+    assert least <= friction < most
+    assert "Give surface_1.finish and surface_2.finish (ground, honed," in told["bare"]
+    assert "Below the grid" not in told["finished"]
+    thick = {"operation__speed_1": "3 m/s", "operation__speed_2": "2.5 m/s", "operation__temperature": "40 degC"}
+    assert "Below the grid" not in before(str(tmp_path / "bare.toml"), **thick)
+    standing = {"operation__speed_1": "0.1 m/s", "operation__speed_2": "-0.1 m/s"}
+    assert "Below the grid: no roughness given" in before(str(tmp_path / "bare.toml"), **standing)
 
 
 def test_a_changing_duty_is_told_by_its_ranges() -> None:
