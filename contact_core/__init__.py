@@ -45,7 +45,7 @@ from .deterministic.march import Moment, march, run_cycle
 from .deterministic.present import present_instant
 from .deterministic.transient import parted
 from .errors import ContactError, ConvergenceError, FilmTooWideError, OperatingPointError, SceneError, StateError
-from .laws.profile import Logarithmic, Rounded
+from .laws.profile import Logarithmic, Measured, Rounded
 from .scene import OperatingPoint, Scene
 from .scene.toml import shipped_scenes
 from .state import ContactState, Error, Outputs, RangeFlag, initial_state
@@ -64,6 +64,7 @@ __all__ = [
     "FilmTooWideError",
     "LineContact",
     "Logarithmic",
+    "Measured",
     "Moment",
     "OperatingPoint",
     "OperatingPointError",

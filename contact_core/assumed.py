@@ -8,7 +8,6 @@ errors of `uncertainty`, which are those of solving the scene as it is.
 import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from itertools import product
 from typing import NamedTuple
 
 from . import regression
@@ -19,8 +18,7 @@ from .scene.intervals import Interval, replaced
 from .state import initial_state
 
 WEAR = "wear_depth"  # of both bodies together: their wear rate now
-_FRICTION = "friction_coefficient"
-OUTPUTS = (_FRICTION, "h_c", "contact_load_ratio", WEAR)
+OUTPUTS = ("friction_coefficient", "h_c", "contact_load_ratio", WEAR)
 HEADS = ("assumed", "between", "friction", "h_c", "W_c", "wear rate")
 _FILM = "h_c"
 # half widths that are told: of friction and shares, of films [m], of wear relative
@@ -56,29 +54,6 @@ def assumed(scene: Scene, op: OperatingPoint) -> Mapping[str, Assumption]:
             if half > 0.0:
                 parts[name][interval.key] = half
     return {name: Assumption(dict(sorted(each.items(), key=lambda x: -x[1]))) for name, each in parts.items()}
-
-
-def waves_below(scene: Scene) -> tuple[Interval, ...]:
-    """Return the intervals of the roughness below the grid of the bodies that a scene gives none of."""
-    bodies = ("surface_1", scene.surface_1), ("surface_2", scene.surface_2)
-    open_to = {f"{name}.microroughness.rms" for name, surface in bodies if surface.microroughness is None}
-    return tuple(each for each in scene.intervals if each.key in open_to)
-
-
-def friction_by_waves_below(scene: Scene, op: OperatingPoint) -> tuple[float, float, float]:
-    """Return friction at the regression level, its least and its most by the roughness that `waves_below` may have.
-
-    Raises ContactError if that level has no answer there.
-    """
-    case = Case.bind(scene.at_level(Regression.name), op)
-    found = [_answers(case)[_FRICTION]]
-    unknown = waves_below(case.scene)
-    for ends in product(*(each.ends(case.scene) for each in unknown)):
-        finished = case.scene
-        for each, end in zip(unknown, ends, strict=True):
-            finished = replaced(finished, each.key, end)
-        found.append(_answers(Case.bind(finished, op))[_FRICTION])
-    return found[0], min(found), max(found)
 
 
 def told(intervals: Sequence[Interval], worth: Mapping[str, Assumption]) -> list[tuple[str, ...]]:

@@ -17,7 +17,8 @@ from .toml import did_you_mean
 USUAL = "mineral"
 # Gold's coefficient over measured secants from 0 to 0.2 GPa: 19 points of FVA 3, FVA 3A, M100 and PAO100, +-0.037
 _OF_SECANT, _SECANT_TO = 0.956, 0.2  # [1], [GPa]
-_WARM, _HOT = 343.15, 353.15  # K: amid the temperatures of use, and that of the Eyring stress
+# K: of the limiting coefficient; amid the temperatures of use; of the Eyring stress
+_COLD, _WARM, _HOT = 313.15, 343.15, 353.15
 # of mineral oils whose viscosity falls faster with temperature than paraffinic ones': fitted to N100 and eight oils of
 # medium viscosity index of Stachowiak & Batchelor, Engineering Tribology, table 2.3, within 15 %
 _PARAFFINIC, _RISE, _NAPHTHENIC = 1.25, 1.9, 1.3
@@ -38,6 +39,10 @@ class Base:
     limiting_interval: tuple[float, float]
     conductivity: float  # [W/(m K)]
     conductivity_interval: tuple[float, float]
+    limiting_fall: float  # of the limiting coefficient with temperature [1/K]
+    limiting_fall_interval: tuple[float, float]
+    conductivity_rise: float  # with pressure [1/GPa]
+    conductivity_bend: float  # [1/GPa]
 
     def oil(self, sheet: AstmD341) -> AstmD341:
         """Return the oil of a data sheet with this family's pressure coefficient and bends.
@@ -56,21 +61,21 @@ class Base:
         return replace(bent, pressure_coefficient=1e-9 * slope * float(reference))
 
     def eyring_stress(self, oil: AstmD341) -> float:
-        """Return the Eyring stress [Pa] of an oil: 2 limiting coefficients over its secant to 1 GPa at 80 degC.
+        """Return the Eyring stress [Pa] of an oil: 2 limiting coefficients over its secant to 1 GPa, both at 80 degC.
 
         Bair & Winer, J. Tribol. 112 (1990) 245, with the coefficient under pressure as Arana, Larranaga & Ulacia 2019,
         doi:10.1177/1350650118778655, equation 13, have it.
         """
         secant = 1e-9 * math.log(float(oil(1e9, _HOT)) / float(oil(0.0, _HOT)))
-        return 2.0 * self.limiting_coefficient / secant
+        return 2.0 * self.limiting_coefficient * math.exp(-self.limiting_fall * (_HOT - _COLD)) / secant
 
     def _naphthenic(self, sheet: AstmD341) -> float:
         """Return by what the coefficient is more than Gold's, by Roelands' slope index of the viscosity."""
         if self is not _bases()[USUAL]:
             return 1.0
-        cold, hot = 313.15, 373.15
-        fall = float(sheet.log_viscosity(cold) / sheet.log_viscosity(hot))
-        slope_index = math.log(fall) / math.log((hot - _ROELANDS) / (cold - _ROELANDS))
+        hot = 373.15
+        fall = float(sheet.log_viscosity(_COLD) / sheet.log_viscosity(hot))
+        slope_index = math.log(fall) / math.log((hot - _ROELANDS) / (_COLD - _ROELANDS))
         return min(max(1.0 + _RISE * (slope_index - _PARAFFINIC), 1.0), _NAPHTHENIC)
 
 

@@ -16,16 +16,7 @@ from ..errors import SceneError
 from ..laws.viscosity import AstmD341
 from ..quantities import out_of_range
 from .bases import USUAL, Base, base_of
-from .finishes import (
-    LAYS,
-    LENGTH_PER_RQ,
-    LONGEST,
-    MOST_BELOW,
-    ends_of_finish,
-    longest_below,
-    part_below,
-    values_of_finish,
-)
+from .finishes import BELOW, LAYS, LENGTH_PER_RQ, LONGEST, ends_of_finish, longest_below, part_below, values_of_finish
 from .intervals import Ends, listed, of_sets
 from .records import ACCURACY
 from .toml import DATA_SHEET, did_you_mean, models_of, with_named_set
@@ -66,10 +57,11 @@ _PLASTICITY = {"set": "steel"}
 _CONTROL = {"change": "3 nm", "dry_above": 0.8, "input_change": 0.02}
 _FLOOR = "1 nm"
 _LENGTH = 8e-6  # m, of roughness: as in the shipped scenes
-_BELOW_LIMIT = 1e-7  # m, microroughness that a scene which gives none may have, at most
+_MOST_BELOW = 1e-7  # m, microroughness that a scene which gives none may have, at most
 _NO_LAYER = "lumped"  # film.criterion that microroughness does not go with
 _REFERENCE = "40 degC"
-_BEND, _STRESS = 0.2, 0.35  # relative half widths of a family's bends and of its Eyring stress
+# relative half widths of a family's bends, its Eyring stress, and the rise of its conductivity
+_BEND, _STRESS, _RISE = 0.2, 0.35, 0.2
 _ROW, _STEADY = "60 s", "60 s"
 _NAME = "contact"
 
@@ -167,14 +159,9 @@ class _Filling:
 
     def list_intervals(self) -> None:
         """Set the intervals of sets and defaults, which those of the scene itself replace, as a list."""
-        if isinstance(self.table.get("intervals", {}), Mapping):
-            self.table["intervals"] = listed({**self.intervals, **self.own_intervals})
-
-    @property
-    def own_intervals(self) -> Mapping[str, Ends]:
-        """The intervals that the scene itself gives."""
         own = self.table.get("intervals", {})
-        return own if isinstance(own, Mapping) else {}
+        if isinstance(own, Mapping):
+            self.table["intervals"] = listed({**self.intervals, **own})
 
     def needs(self, part: str, field: str) -> bool:
         """Return True if the record that the table chooses has a field without a default of its own."""
@@ -247,16 +234,9 @@ def _surfaces(filling: _Filling) -> None:
             ends = None if rq == 0.0 else ("-50 %", "+100 %")
             filling.give(f"{part}.correlation_length", f"{1e6 * length:.4g} um", why, kind, ends)
         filling.give(f"{part}.seed", seed, "number of the random surface", _NUMERICAL)
-        _below(filling, part, rq or 0.0)
-
-
-def _below(filling: _Filling, part: str, rq: float) -> None:
-    """Set the interval of the roughness below the grid of a surface that gives none."""
-    key = f"{part}.microroughness.rms"
-    if not filling.layered or rq == 0.0 or filling.has(f"{part}.microroughness") or key in filling.own_intervals:
-        return
-    filling.assumed.append(Assumed(f"{part}.microroughness", _NO_LAW, "a finish gives it", "off"))
-    filling.intervals[key] = ("0 nm", f"{1e9 * min(MOST_BELOW * rq, _BELOW_LIMIT):.3g} nm")
+        if filling.layered and rq and not filling.has(f"{part}.microroughness"):
+            most = f"{1e9 * min(BELOW * rq, _MOST_BELOW):.3g} nm"
+            filling.intervals.setdefault(f"{part}.microroughness.rms", ("0 nm", most))
 
 
 def _finish(filling: _Filling, part: str) -> None:
@@ -274,7 +254,6 @@ def _finish(filling: _Filling, part: str) -> None:
     except SceneError as error:
         raise SceneError(f"{part}.finish: {error}") from None
     why = f"of a {name} surface: data/finishes.toml"
-    filling.assumed.append(Assumed(f"{part}.finish", name, why))
     filling.give(f"{part}.rq", own["rq"], why, ends=ends["rq"])
     rq, own_rq = filling.number(f"{part}.rq", "m") or 0.0, parse(own["rq"], "m", "rq")
     longest = LONGEST
@@ -317,12 +296,24 @@ def _oil(filling: _Filling) -> None:
     for name in ("bend_40", "bend_100"):
         filling.give(f"{oil}.{name}", float(f"{getattr(law, name):.3g}"), family, ends=_either_way(_BEND))
     stress = f"{1e-6 * base.eyring_stress(law):.3g} MPa"
-    rheology = {"model": "eyring", "eyring_stress": stress, "limiting_coefficient": base.limiting_coefficient}
-    ends = {"eyring_stress": _either_way(_STRESS), "limiting_coefficient": base.limiting_interval}
+    rheology = {
+        "model": "eyring",
+        "eyring_stress": stress,
+        "limiting_coefficient": base.limiting_coefficient,
+        "limiting_fall": f"{base.limiting_fall:g} K^-1",
+    }
+    falls = (f"{end:g} K^-1" for end in base.limiting_fall_interval)
+    ends = {
+        "eyring_stress": _either_way(_STRESS),
+        "limiting_coefficient": base.limiting_interval,
+        "limiting_fall": tuple(falls),
+    }
     filling.give_law("lubricant.rheology", rheology, f"{family}; the stress is assumed", ends)
-    filling.give("lubricant.conductivity", f"{base.conductivity:g} W/(m K)", family, ends=(
-        f"{base.conductivity_interval[0]:g} W/(m K)", f"{base.conductivity_interval[1]:g} W/(m K)",
-    ))  # fmt: skip
+    conductivities = [f"{end:g} W/(m K)" for end in (base.conductivity, *base.conductivity_interval)]
+    filling.give("lubricant.conductivity", conductivities[0], family, ends=(conductivities[1], conductivities[2]))
+    rise = f"{base.conductivity_rise:g} GPa^-1"
+    filling.give("lubricant.conductivity_rise", rise, family, ends=_either_way(_RISE))
+    filling.give("lubricant.conductivity_bend", f"{base.conductivity_bend:g} GPa^-1", family)
 
 
 def _either_way(share: float) -> Ends:

@@ -15,7 +15,7 @@ from typing import Any
 
 from ..errors import SceneError
 from ..laws.asperity_layer import AsperityLayer
-from .toml import file_of_set, flat, read_table
+from .toml import file_of_set, flat, models_of, read_table
 from .units import parse
 
 Ends = tuple[Any, Any]  # least and largest value, as in a scene
@@ -71,6 +71,20 @@ def _of_set(chosen: str, path: str, beside: Mapping[str, Any]) -> Iterator[tuple
     for key, ends in sets.get(name, {}).get("intervals", {}).items():
         if key.startswith(f"{path}.") and key not in beside:
             yield key, ends
+
+
+def applicable(scene: Any) -> tuple[Interval, ...]:
+    """Return the intervals of a scene but for those of laws that others have taken the place of."""
+    return tuple(each for each in scene.intervals if not _of_another_law(scene, each.key))
+
+
+def _of_another_law(scene: Any, key: str) -> bool:
+    path, _, name = key.rpartition(".")
+    record = scene
+    for part in path.split("."):
+        record = getattr(record, part, None)
+    others = {f.name for law in models_of(path) for f in fields(law)}
+    return name in others and record is not None and not hasattr(record, name)
 
 
 def errors(scene: Any) -> Iterator[str]:

@@ -10,10 +10,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from contact_core import advance, initial_state
 from contact_core.assumed import LEAST, OUTPUTS, WEAR, Assumption, text
 from contact_core.assumed import assumed as assumed_worth
 from contact_core.errors import ContactError
-from contact_core.scene import Assumed, OperatingPoint, Scene
+from contact_core.film import Regression
+from contact_core.scene import Assumed, Case, OperatingPoint, Scene
+from contact_core.scene.intervals import replaced
 
 from ..store.results import ASSUMED
 
@@ -78,6 +81,20 @@ def _rounded(point: OperatingPoint) -> OperatingPoint:
         for name, value in vars(point).items()
     }
     return OperatingPoint(**digits)
+
+
+def of_microroughness(case: Case) -> str:
+    """Return a sentence on friction by the regression level, without and with the roughness that a scene leaves out."""
+    scene, op = case.scene, case.op
+    worth = {i.key: i.ends(scene)[1] for i in scene.intervals if i.key.endswith("microroughness.rms")}
+    fast = scene.at_level(Regression.name)
+    rough = fast
+    for key, most in worth.items():
+        rough = replaced(rough, key, most)
+    with suppress(ContactError):
+        low, high = (advance(each, op, initial_state(each), 0.0)[1].friction_coefficient for each in (fast, rough))
+        return f"friction {low:.2g} without, {high:.2g} with the most that is usual. "
+    return ""
 
 
 def sentence(scene: Scene, dataset: xr.Dataset) -> list[str]:

@@ -9,13 +9,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from contact_core.assumed import friction_by_waves_below, waves_below
-from contact_core.errors import ContactError
 from contact_core.film.inlet_loss import inlets_before, inlets_for
 from contact_core.film.lengths import inlet_length
 from contact_core.quantities import UNSOLVED
 from contact_core.scene import Case, OperatingPoint, Scene
-from contact_core.scene.finishes import finishes
 from contact_core.scene.hertz_grid import POINTS
 from contact_core.state import Error
 
@@ -24,7 +21,7 @@ from .duty import Duty
 
 _MOST_POINTS = 200  # of a duty that are looked at
 _MIXED, _FULL = 1.0, 3.0  # lambda of handbooks, from which on lubrication is called mixed, and full film
-_BELOW_MATTERS = 2.0  # lambda of handbooks, below which roughness below the grid decides on friction
+_DECIDES = 2.0  # lambda below which roughness below the grid decides on friction
 _FEW = 8.0  # nodes across the contact, below which RangeFlag.FEW_NODES is raised
 _WIDE, _WAVES = 5.0, 8.0  # half widths of the contact and correlation lengths, that a domain should have
 _MISSING, _LEFT = 0.06, 0.02  # of the film: missing from which on a line says so, and left by its way out
@@ -44,7 +41,7 @@ def before(scene: Scene, duty: Duty) -> list[str]:
     cases = [Case.bind(scene, op) for op in _some(duty.points) if op.load > 0.0]
     if not cases:
         return ["Contact: no load, the bodies just touch."]
-    return wrapped(*described(cases), *_below(scene, cases), *_grid(scene, cases), *_inlet(scene, cases))
+    return wrapped(*described(cases), *_grid(scene, cases), *_inlet(scene, cases), *_below_the_grid(scene, cases))
 
 
 def described(cases: Sequence[Case]) -> list[str]:
@@ -111,26 +108,6 @@ def _word(ratio: float) -> str:
     return "mixed lubrication" if ratio < _FULL else "full film"
 
 
-def _below(scene: Scene, cases: Sequence[Case]) -> list[str]:
-    """Return a line on a thin film between bodies of no known roughness below the grid, with its worth in friction."""
-    unknown = waves_below(scene)
-    thinnest = min(cases, key=lambda case: case.conventional_film)
-    rough = math.hypot(*(side.surface.rms for side in cases[0].sides))
-    if not unknown or thinnest.conventional_film >= _BELOW_MATTERS * rough:
-        return []
-    keys = " and ".join(each.key.replace("microroughness.rms", "finish") for each in unknown)
-    try:
-        friction, least, most = friction_by_waves_below(scene, thinnest.op)
-    except ContactError:
-        worth = "friction and W_c depend on it"
-    else:
-        worth = f"friction {friction:.2g}, {least:.2g} to {most:.2g} by the roughness below the grid (regression level)"
-    return [
-        f"Below the grid: no roughness given, and the film is thin: {worth}. Give {keys} ({', '.join(finishes())}), or "
-        "microroughness as measured: tribofmu docs surfaces."
-    ]
-
-
 def _inlet(scene: Scene, cases: Sequence[Case]) -> list[str]:
     """Return a line on a domain that cuts the inlet off, with the way out."""
     if scene.film.name in UNSOLVED:
@@ -157,6 +134,23 @@ def _flooded(cases: Sequence[Case]) -> float:
         if case.entrained
     )
     return 2.0 * max(halves, default=0.0)
+
+
+def _below_the_grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
+    """Return a line on roughness below the grid that a scene does not give, and what that is worth, where it counts."""
+    bare = [f"surface_{i}" for i, s in enumerate((scene.surface_1, scene.surface_2), 1) if _lacks_layer(s)]
+    rough = math.hypot(*(side.surface.rms for side in cases[0].sides))
+    thinnest = min(cases, key=lambda case: case.conventional_film)
+    if not bare or thinnest.conventional_film >= _DECIDES * rough:
+        return []
+    return [
+        f"Roughness: {' and '.join(bare)} give none below the grid, on which solid contact depends at this lambda: "
+        f"{assumed.of_microroughness(thinnest)}Take finish = 'ground', 'polished', ... or microroughness."
+    ]
+
+
+def _lacks_layer(surface: Any) -> bool:
+    return surface.microroughness is None and not surface.smooth
 
 
 def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:

@@ -6,13 +6,12 @@
     dimple          measured: a dimple that crosses a contact
     oils            measured: viscosities of the named oils
     base_oils       measured: pressure coefficients by two viscosities and a family
-    zddp_films      measured: tribofilms and friction of ZDDP
+    traction        measured: friction of full films
     film_formulas   published numerical: films of points and lines
     starvation      published numerical: films of too little oil
     dry_contact     closed form: Hertz's contact
     stresses        closed form: largest shear below it
     flash           closed form: heat sources that move
-    tribofilm       closed form: growth of a tribofilm that is always rubbed
     thesis          thesis: two hours of the shipped cases
     tables          the measurements in `data/`, with their licences
     terminal        outcomes as text

@@ -16,8 +16,7 @@ from . import (
     starvation,
     stresses,
     thesis,
-    tribofilm,
-    zddp_films,
+    traction,
 )
 from .model import Comparison, Outcome
 
@@ -26,13 +25,12 @@ COMPARISONS: dict[str, Comparison] = {
     "dimple": dimple.COMPARISON,
     "oils": oils.COMPARISON,
     "base_oils": base_oils.COMPARISON,
-    "zddp_films": zddp_films.COMPARISON,
+    "traction": traction.COMPARISON,
     "film_formulas": film_formulas.COMPARISON,
     "starvation": starvation.COMPARISON,
     "dry_contact": dry_contact.COMPARISON,
     "stresses": stresses.COMPARISON,
     "flash": flash.COMPARISON,
-    "tribofilm": tribofilm.COMPARISON,
     "thesis": thesis.COMPARISON,
 }
 
