@@ -16,7 +16,16 @@ from ..errors import SceneError
 from ..laws.viscosity import AstmD341
 from ..quantities import out_of_range
 from .bases import USUAL, Base, base_of
-from .finishes import BELOW, LAYS, LENGTH_PER_RQ, LONGEST, ends_of_finish, longest_below, part_below, values_of_finish
+from .finishes import (
+    LAYS,
+    LENGTH_PER_RQ,
+    LONGEST,
+    MOST_BELOW,
+    ends_of_finish,
+    longest_below,
+    part_below,
+    values_of_finish,
+)
 from .intervals import Ends, listed, of_sets
 from .records import ACCURACY
 from .toml import DATA_SHEET, did_you_mean, models_of, with_named_set
@@ -57,7 +66,7 @@ _PLASTICITY = {"set": "steel"}
 _CONTROL = {"change": "3 nm", "dry_above": 0.8, "input_change": 0.02}
 _FLOOR = "1 nm"
 _LENGTH = 8e-6  # m, of roughness: as in the shipped scenes
-_MOST_BELOW = 1e-7  # m, microroughness that a scene which gives none may have, at most
+_HIGHEST = 1e-7  # m, microroughness that a scene which gives none may have, at most
 _NO_LAYER = "lumped"  # film.criterion that microroughness does not go with
 _REFERENCE = "40 degC"
 # relative half widths of a family's bends, its Eyring stress, and the rise of its conductivity
@@ -235,7 +244,7 @@ def _surfaces(filling: _Filling) -> None:
             filling.give(f"{part}.correlation_length", f"{1e6 * length:.4g} um", why, kind, ends)
         filling.give(f"{part}.seed", seed, "number of the random surface", _NUMERICAL)
         if filling.layered and rq and not filling.has(f"{part}.microroughness"):
-            most = f"{1e9 * min(BELOW * rq, _MOST_BELOW):.3g} nm"
+            most = f"{1e9 * min(MOST_BELOW * rq, _HIGHEST):.3g} nm"
             filling.intervals.setdefault(f"{part}.microroughness.rms", ("0 nm", most))
 
 

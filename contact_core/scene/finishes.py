@@ -19,7 +19,7 @@ from .units import parse
 FILE = Path(str(files("contact_core"))) / "data" / "finishes.toml"
 LENGTH_PER_RQ = 40.0  # of roughness, at least: rms slopes stay below 0.05
 LAYS = ("along", "across")  # of the motion
-BELOW = 0.2  # rms of the waves under `LONGEST`, over rq: see data/finishes.toml
+MOST_BELOW = 0.5  # rms of the waves under `LONGEST` over rq, at most: ends of the intervals in data/finishes.toml
 LONGEST = 4e-6  # m
 _FAR = 4.0  # from the rq of a finish: so far its shorter waves go with rq
 

@@ -35,12 +35,7 @@ _USUAL = {"geometry", "surface_1", "surface_2"}  # without a `model`: the first 
 _UNNAMED = Surface  # its tables have never had a `model`, and stored states go by their text
 DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data sheet"
 NO_UTF_8 = "it is not in UTF-8. Save it as UTF-8."  # in place of Python's words on a byte
-_FINISH = " Or name its finish, such as finish = 'ground' or 'polished', which has a usual value."
-_TOO = {
-    "operation.duration": " `tribofmu run` takes it as --hours, too.",
-    "surface_1.rq": _FINISH,
-    "surface_2.rq": _FINISH,
-}
+_TOO = {"operation.duration": " `tribofmu run` takes it as --hours, too."}
 _OF_FINISH = ("rq", "correlation_length", "correlation_length_across", "microroughness")
 _SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
 
@@ -403,6 +398,8 @@ def _missing(full: str, f: "Field[Any]") -> Missing:
     part, _, last = full.rpartition(".")
     models, sets = models_of(last), named_sets(part)
     instead = f", or {part}.set = one of {', '.join(sets)}" if sets else ""
+    if full in ("surface_1.rq", "surface_2.rq"):
+        instead = f", or {part}.finish, such as 'ground' or 'polished'{instead}"
     if "unit" in f.metadata:
         unit, text = f.metadata["unit"], f"{f.metadata['text']}{instead}"
         unit = f" [{unit}]" if unit else ""

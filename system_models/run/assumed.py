@@ -83,10 +83,16 @@ def _rounded(point: OperatingPoint) -> OperatingPoint:
     return OperatingPoint(**digits)
 
 
-def of_microroughness(case: Case) -> str:
-    """Return a sentence on friction by the regression level, without and with the roughness that a scene leaves out."""
+def of_microroughness(case: Case, bare: Sequence[str]) -> str:
+    """Return a sentence on friction by the regression level, without and with the roughness that bare surfaces lack.
+
+    Empty if nothing is known of it: of heights from a file.
+    """
     scene, op = case.scene, case.op
-    worth = {i.key: i.ends(scene)[1] for i in scene.intervals if i.key.endswith("microroughness.rms")}
+    lacking = {f"{surface}.microroughness.rms" for surface in bare}
+    worth = {i.key: i.ends(scene)[1] for i in scene.intervals if i.key in lacking}
+    if not worth:
+        return ""
     fast = scene.at_level(Regression.name)
     rough = fast
     for key, most in worth.items():

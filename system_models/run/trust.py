@@ -141,11 +141,12 @@ def _below_the_grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
     bare = [f"surface_{i}" for i, s in enumerate((scene.surface_1, scene.surface_2), 1) if _lacks_layer(s)]
     rough = math.hypot(*(side.surface.rms for side in cases[0].sides))
     thinnest = min(cases, key=lambda case: case.conventional_film)
-    if not bare or thinnest.conventional_film >= _DECIDES * rough:
+    if not bare or scene.film.lumped or thinnest.conventional_film >= _DECIDES * rough:
         return []
+    give = "give" if len(bare) > 1 else "gives"
     return [
-        f"Roughness: {' and '.join(bare)} give none below the grid, on which solid contact depends at this lambda: "
-        f"{assumed.of_microroughness(thinnest)}Take finish = 'ground', 'polished', ... or microroughness."
+        f"Roughness: {' and '.join(bare)} {give} none below the grid, on which solid contact depends at this lambda: "
+        f"{assumed.of_microroughness(thinnest, bare)}Take finish = 'ground', 'polished', ... or microroughness."
     ]
 
 

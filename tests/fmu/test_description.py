@@ -256,8 +256,8 @@ def test_the_same_scene_of_other_versions_has_another_guid_and_script(scene, mon
 def test_the_documentation_names_laws_variables_and_flags(fmu_file):
     with zipfile.ZipFile(fmu_file) as archive:
         page = archive.read("documentation/index.html").decode()
-    for text in ("lubricant.viscosity: roelands", "friction_coefficient", "wear.bare", "range_flags is"):
-        assert text in page
+    for part in ("lubricant.viscosity: roelands", "friction_coefficient", "wear.bare", "range_flags is"):
+        assert part in page
 
 
 # what means nothing to a shape is absent, not zero

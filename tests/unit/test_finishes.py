@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core import Measured, Scene, SceneError
+from contact_core import Measured, Scene, SceneError, advance, initial_state
 from contact_core.scene.finishes import FILE, ends_of_finish, finishes
 from contact_core.scene.origins import comments_of, origins
 from contact_core.scene.toml import read_table
@@ -70,7 +70,7 @@ def test_what_a_scene_gives_itself_wins_and_microroughness_goes_with_its_rq():
         ({"finish": "grund"}, ["surface_1.finish", "There is no finish 'grund'", "Did you mean 'ground'?", "hobbed"]),
         ({"finish": "ground", "lay": "alnog"}, ["surface_1.lay = 'alnog'", "along", "across"]),
         ({"rq": "10 nm", "lay": "along"}, ["surface_1.lay", "surface_1.finish"]),
-        ({}, ["surface_1.rq", "finish = 'ground'"]),
+        ({}, ["surface_1.rq", "surface_1.finish, such as 'ground'"]),
     ],
 )
 def test_a_finish_that_is_none_is_refused_with_those_that_are(surface, said):
@@ -103,6 +103,29 @@ def test_a_scene_that_leaves_roughness_below_the_grid_out_says_what_that_is_wort
     assert "Roughness:" not in before(
         Scene.from_dict(fast | {"surface_1": {"rq": "5 nm"}, "surface_2": {"rq": "5 nm"}})
     )
+
+
+@pytest.mark.parametrize("speeds", [("1.25 m/s", "0.75 m/s"), ("0.125 m/s", "0.075 m/s")])
+def test_what_roughness_below_the_grid_may_be_worth_holds_what_finishes_give(speeds):
+    operation = FACTS["operation"] | dict(zip(("speed_1", "speed_2"), speeds, strict=True))
+    table = FACTS | {"operation": operation, "film": {"model": "regression"}}
+    bare = Scene.from_dict(table | {"surface_1": {"rq": "20 nm"}, "surface_2": {"rq": "0.1 um"}})
+    without, most = (float(word) for word in before(bare).partition("friction ")[2].split()[0:3:2])
+    for name in ("ground", "honed", "lapped", "superfinished"):
+        surfaces = {"surface_1": {"rq": "20 nm", "finish": "polished"}, "surface_2": {"rq": "0.1 um", "finish": name}}
+        found = Scene.from_dict(table | surfaces)
+        friction = advance(found, found.operation.point, initial_state(found), 0.0)[1].friction_coefficient
+        assert without < friction <= most
+
+
+def test_no_finish_is_asked_for_where_none_may_be_and_no_worth_is_told_that_is_not_known(tmp_path):
+    heights = tmp_path / "heights.npy"
+    np.save(heights, 1e-8 * np.random.default_rng(1).standard_normal((64, 64)))
+    measured = {"heights": {"file": str(heights), "spacing": "8 um", "unit": "m"}}
+    said = before(scene({"finish": "polished"}, measured))
+    assert "Roughness: surface_2 gives none below the grid" in said and "the most that is usual" not in said
+    lumped = FACTS | {"film": {"criterion": "lumped"}, "surface_1": {"rq": "10 nm"}, "surface_2": {"rq": "25 nm"}}
+    assert "Roughness:" not in before(Scene.from_dict(lumped))
 
 
 def test_the_crown_of_a_measured_roller_is_straight_in_the_middle_and_as_deep_at_its_ends_as_it_says():

@@ -47,7 +47,7 @@ def test_a_drawing_and_a_data_sheet_are_a_scene_and_it_says_what_it_assumes(ball
     assert scene.geometry.radius_y == scene.geometry.radius_x
     assert scene.doubts() == scene.warnings() == []
     line = told(assumed)
-    assert "lubricant.rheology eyring, eyring_stress " in line and "MPa, limiting_coefficient 0.047" in line
+    assert "lubricant.rheology eyring, eyring_stress " in line and "MPa, limiting_coefficient 0.0" in line
     assert line.endswith("; off: heat, tribofilm, wear")
     assert told(()) == ""
 
@@ -83,7 +83,7 @@ def test_all_that_is_missing_is_one_sentence(tmp_path):
     for named in (
         "solids.reduced_modulus [Pa] (E' = ",
         "or solids.set = one of steel)",
-        "surface_1.rq [m] (rms roughness, or surface_1.set = one of nu206_raceway, nu206_roller)",
+        "surface_1.rq [m] (rms roughness, or surface_1.finish, such as 'ground' or 'polished', or surface_1.set = ",
         "surface_2.rq [m]",
         "lubricant.viscosity (viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data",
         "or lubricant.set = one of azam_oil, ",
@@ -104,7 +104,7 @@ def test_wrong_values_unknown_keys_and_missing_ones_are_said_together(ball):
     said = str(refusal.value)
     assert "[operation] has no key 'sped_1'. Did you mean 'speed_1'?" in said
     assert "operation.load = '50 m' has the wrong unit" in said
-    assert "These 2 values are missing: surface_1.rq [m] (rms roughness, or" in said
+    assert "These 2 values are missing: surface_1.rq [m] (rms roughness, or surface_1.finish, " in said
 
 
 @pytest.mark.parametrize(
@@ -135,7 +135,7 @@ def test_a_named_oil_keeps_all_that_its_set_gives(ball):
     before, after = TWENTY_LINES.split("[lubricant]")
     ball.write_text(f'{before}[lubricant]\nset = "pao100"\n{after[after.index("[operation]") :]}')
     scene, assumed = Scene.read(ball)
-    assert scene.lubricant.rheology.limiting_coefficient == 0.035
+    assert scene.lubricant.rheology.limiting_coefficient == 0.041
     assert not any(each.key.startswith("lubricant") for each in assumed)
 
 
