@@ -189,7 +189,8 @@ def half_widths(case: Case, contact: MeanContact) -> dict[str, Any]:
 
 def _of_rolling(contact: MeanContact) -> float:
     """Return the relative half width of the rolling resistance: by its formula, by solids, and by a short supply."""
-    return math.hypot(_ROLLING, _ROLLING_ON_SOLIDS * contact.load_ratio, _ROLLING_STARVED * (1.0 - contact.supplied))
+    solids, starved = _ROLLING_ON_SOLIDS * contact.load_ratio, _ROLLING_STARVED * (1.0 - contact.supplied)
+    return math.hypot(math.hypot(_ROLLING, solids), starved)
 
 
 def _of_history(before: Outputs, films: tuple[float, float], means: Means, now: dict[str, Any]) -> dict[str, float]:
