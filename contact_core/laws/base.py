@@ -114,6 +114,9 @@ class Supply(Law, Protocol):
 
         """
 
+    def reach(self, half_width: float, radius: float) -> float:
+        """Return how far before the centre [m] the inlet is full, by Hertz's half width and the radius along x [m]."""
+
 
 class Hardening(NamedTuple):
     """Pressures at which tribofilms yield, and how they harden. Arrays of one shape."""
