@@ -22,20 +22,35 @@ from system_models.validation.asperity_load import (
     CONTACTS,
     LAMBDAS,
     NODES,
-    SEED,
+    Contact,
     at_lambda,
     band,
     composite,
     fits,
+    line_contact,
     scene_of,
     solved,
 )
 
 BASE = "mtm_zddp"
-SEEDS = (None, SEED, SEED + 1)
+FEWEST, MOST = 3, 10  # realisations: more until the mean is known to ALLOWED
 LONG = {"surface_1.correlation_length": "16 um", "surface_2.correlation_length": "16 um"}
 STEPS = ((65, 1.0), (65, 0.5), (129, 1.0), (129, 0.5))  # nodes a side, nodes a step
+NEGLIGIBLE = 0.01  # share that need not be known so well
+FIRST = 10  # seed of the realisations beside the scene's own, less one
 ALLOWED = 0.1  # standard error of a mean over the seeds, over the mean
+
+
+def raw_trace(rq: float) -> dict[str, str]:
+    """Return a roller on a raceway with the waves of a trace as it is stored, the instrument's among them.
+
+    Of the rms height 0.53 in waves of 12.5 um and more, of even power per octave, and 0.85 in shorter ones.
+    """
+    each = rq / math.sqrt(2.0)
+    return line_contact({
+        "model": "self_affine", "rq": f"{0.53 * each:.4g} m", "hurst": "0.01", "roll_off": "200 um", "cut_off": "12.5 um",
+        "microroughness.rms": f"{0.85 * each:.4g} m", "microroughness.longest": "12.5 um",
+    })  # fmt: skip
 
 
 def both(**changes: str) -> dict[str, str]:
@@ -95,13 +110,18 @@ class Found(NamedTuple):
 
 
 def mean(name: str, ratio: float, changes: Mapping[str, str]) -> Found:
-    outs = [solved(name, ratio, changes, seed) for seed in SEEDS]
-    shares = np.array([out.contact_load_ratio for out in outs])
+    outs = [solved(name, ratio, changes)]
+    while len(outs) < MOST:
+        outs.append(solved(name, ratio, changes, FIRST + len(outs)))
+        shares = np.array([out.contact_load_ratio for out in outs])
+        error = float(shares.std(ddof=1) / math.sqrt(shares.size))
+        if len(outs) >= FEWEST and (error < ALLOWED * shares.mean() or shares.mean() < NEGLIGIBLE):
+            break
     means = (
         float(np.mean([getattr(out, key) for out in outs]))
         for key in ("h_c", "lambda_ratio", "error_load_ratio", "unconverged")
     )
-    return Found(float(shares.mean()), float(shares.std(ddof=1) / math.sqrt(shares.size)), *means)
+    return Found(float(shares.mean()), error, *means)
 
 
 def statistics(page: Page) -> None:
@@ -126,13 +146,14 @@ def statistics(page: Page) -> None:
 
 def contacts(page: Page) -> dict[str, list[Found]]:
     page.say(
-        f"## Solved contacts\n\nFresh surfaces, one block of {NODES} nodes a side of {len(SEEDS)} realisations each; lambda: film of smooth bodies by formula over the composite rms "
+        f"## Solved contacts\n\nFresh surfaces, one block of {NODES} nodes a side of {FEWEST} to {MOST} realisations each; lambda: film of smooth bodies by formula over the composite rms "
         "height of all waves, set by the speed. p_0/p_m: pressure of the dry, rigid roughness without a gap (0.45 E'/2 times its rms slope; of a layer below the grid its own law) over Hertz's mean pressure. "
         "Stated: half width of one block."
     )
     page.header("contact", "p_0/p_m", "lambda", "band", "W_c", "standard error", "stated", "h_c [nm]", "unconverged")
     all_found: dict[str, list[Found]] = {}
-    for name, contact in CONTACTS.items():
+    raw = {"raceway, Rq 0.16 um, waves of the raw trace": Contact("fzg_flank", raw_trace(0.16e-6), (0.0, 0.0))}
+    for name, contact in (CONTACTS | raw).items():
         for ratio in LAMBDAS:
             found = mean(contact.scene, ratio, contact.changes)
             all_found.setdefault(name, []).append(found)
@@ -256,10 +277,10 @@ def main() -> None:
     definitions(page)
     steps(page)
     draw(page, scenes, changed)
-    known = [one for rows in (*scenes.values(), *changed.values()) for one in rows if one.share > 0.01]
+    known = [one for rows in (*scenes.values(), *changed.values()) for one in rows if one.share > NEGLIGIBLE]
     worst = max(one.error / one.share for one in known)
     page.verdict(
-        f"W_c known to {100 * ALLOWED:g} % (standard error of {len(SEEDS)} realisations) where it is above 0.01",
+        f"W_c known to {100 * ALLOWED:g} % (standard error of {FEWEST} to {MOST} realisations) where it is above {NEGLIGIBLE:g}",
         f"at worst {100 * worst:.0f} %",
         worst <= ALLOWED,
     )

@@ -5,12 +5,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ..film.instant import Grid
 from ..scene import Case
 from ..state import ContactState, RangeFlag, flag_of_scuffing
 from ..surfaces.patches import on_patches
 from .friction import Film, derivatives
 from .instant import ContactFields
 from .observed import instant_flags, observed
+from .rolling import beyond_grid, couple
 from .subsurface import Traction, traction_of
 
 Array = NDArray[np.float64]
@@ -28,6 +30,8 @@ class Accumulator:
     since: tuple[Array, Array]  # passes since a node had the exposure in `peaks`
     peaks: tuple[Array, Array]  # largest exposure in the last pass
     fluid: Array  # pressure of the oil, on the grid
+    gap: Array  # likewise
+    beyond: float = 0.0  # rolling resistance before the edge of the grid [N], summed
     oil_shear: float = 0.0  # stress of the oil, summed over all nodes
     outputs: list[dict[str, float]] = field(default_factory=list)
     iterations: int = 0
@@ -37,6 +41,7 @@ class Accumulator:
     fallbacks: int = 0
     flags: RangeFlag = field(default_factory=lambda: RangeFlag(0))
     tractions: list[Traction] = field(default_factory=list)  # of the instants, where stresses are asked for
+    filmed: Grid | None = None  # where the oil flowed
     sheared: Film | None = None  # the last instant's whose oil was sheared by its rheology
 
     @staticmethod
@@ -46,7 +51,7 @@ class Accumulator:
         zeros = [np.zeros_like(since[0]) for _ in range(4)]
         rows, columns = since[0].shape
         tracks = (zeros[0], zeros[1]), (zeros[2], zeros[3]), (since[0], since[1]), (peaks[0], peaks[1])
-        return Accumulator(*tracks, np.zeros((rows, columns + 1)))
+        return Accumulator(*tracks, *np.zeros((2, rows, columns + 1)))
 
     def restarted(self, state: ContactState, kept: RangeFlag) -> "Accumulator":
         """Return empty sums that keep iterations, the share not converged, the last film, and the flags in `kept`."""
@@ -102,10 +107,13 @@ class Accumulator:
         if case.scene.stress.samples:
             self.tractions.append(traction_of(case.scene, state, fields))
         self.fluid += fields.fluid_pressure
+        self.gap += fields.gap
         self.oil_shear += float(fields.oil_shear.sum())
         seen = observed(case, fields)
         if fields.sheared.oil_friction is None:
             self.sheared = fields.sheared
+            self.beyond += beyond_grid(case, case.grid(fields.y.size))
+            self.filmed = case.grid(fields.y.size)
         else:  # the pressure of that oil is Hertz's: it has no inlet that resists rolling
             seen["rolling_resistance"] = state.oil_rolling * (1.0 - seen["contact_load_ratio"]) * case.op.load
         self.outputs.append(seen)
@@ -128,13 +136,21 @@ class Accumulator:
         return derivatives(case, self.sheared) if self.sheared else {}
 
     def means(self) -> dict[str, float]:
-        """Return the mean outputs of the instants."""
-        return {name: sum(seen[name] for seen in self.outputs) / self.count for name in self.outputs[0]}
+        """Return the mean outputs of the instants; rolling resistance is that of their mean film."""
+        means = {name: sum(seen[name] for seen in self.outputs) / self.count for name in self.outputs[0]}
+        if self.filmed:
+            rolling = couple(self.filmed, self.gap / self.count, self.fluid / self.count)
+            means["rolling_resistance"] = rolling + self.beyond / self.count
+        return means
 
     def spread(self, *, apart: bool) -> dict[str, float]:
-        """Return the standard deviation of these means; `apart`: the instants are independent of each other."""
-        effective = self.count if apart else 1
-        return {name: float(np.std([seen[name] for seen in self.outputs])) / effective**0.5 for name in self.outputs[0]}
+        """Return the standard deviation of these means; `apart`: the instants are independent of each other.
+
+        What the mean film has left of the roughness's own rolling resistance scatters as if they were.
+        """
+        found = {name: float(np.std([seen[name] for seen in self.outputs])) for name in self.outputs[0]}
+        independent = found.keys() if apart else ("rolling_resistance",)
+        return found | {name: found[name] / self.count**0.5 for name in independent}
 
 
 def _exposures(case: Case, fields: ContactFields) -> tuple[Array, Array]:

@@ -21,6 +21,7 @@ from .accumulator import Accumulator
 from .growth_and_wear import area_of_node, film_removal, oxidation, solid_speed, steel_in, with_exposure
 from .instant import ContactFields
 from .observed import observed
+from .rolling import beyond_grid
 from .transient import begin, follow, node_speed
 
 Array = NDArray[np.float64]
@@ -99,6 +100,7 @@ def _moment(time: float, case: Case, state: ContactState, fields: ContactFields)
     seen = observed(case, fields)
     force = seen["friction_force"]
     seen |= {
+        "rolling_resistance": seen["rolling_resistance"] + beyond_grid(case, case.grid(fields.y.size)),
         "friction_fluid": force - seen["friction_solid"],
         "friction_coefficient": abs(force) / case.op.load if case.loaded else 0.0,
         "power_loss": fields.friction.power,

@@ -1,11 +1,11 @@
 """Outputs and range flags of one instant."""
 
-import numpy as np
 
 from ..film.outputs import disc, film_outputs, open_outputs
 from ..scene import Case
 from ..state import RangeFlag
 from .instant import ContactFields
+from .rolling import couple
 
 LAMBDA_CAP = 1e3
 _HOTTEST = 0.01  # of Hertz's area: a single node's temperature depends on the grid
@@ -34,10 +34,9 @@ def observed(case: Case, fields: ContactFields) -> dict[str, float]:
         hertz = case.hertz
         inside = disc(grid, hertz)
         carried = fields.pressure[inside].sum()
-        slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
         seen |= film_outputs(grid, fields.film, fields.gap, fields.touching, case.op.load, hertz)
         seen |= {
-            "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * grid.cell,
+            "rolling_resistance": couple(grid, fields.gap, fields.fluid_pressure),
             "contact_area_ratio_disc": float(fields.touching[inside].mean()),
             "contact_load_ratio_disc": float(fields.solid_pressure[inside].sum() / carried) if carried > 0.0 else 0.0,
         }

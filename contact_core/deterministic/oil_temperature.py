@@ -16,7 +16,7 @@ from ..film.instant import FilmSolution, FilmState, Grid, Instant
 from ..film.thinning import eased, recalled, remembering, solve_thinning
 from ..laws.heat import NoHeat
 from ..laws.temperatures import Rubbing, Temperatures
-from ..reference import inlet_shear_factor
+from ..reference import FILM_OF_VISCOSITY, inlet_shear_factor
 from ..scene import Case
 from .friction import Film, Shear, shear, sliding
 
@@ -25,7 +25,6 @@ Array = NDArray[np.float64]
 _ROUNDS = 30  # of shear and temperature of a steady film, at most
 _UNDER_RELAXATION = 0.7  # of a change of temperature
 _ENOUGH = 1e-3  # change of temperature that ends them, of the highest rise
-_FILM_OF_VISCOSITY = 0.67  # power of the viscosity in the film of smooth bodies (Hamrock & Dowson)
 
 
 def sheared(grid: Grid, found: FilmSolution, cover: Array, temperature: float, oxide: Array | None = None) -> Film:
@@ -58,7 +57,7 @@ def warmed(
             spacing=film.grid.spacing,
             speeds=case.speeds,
             bodies=case.op.bodies,
-            oil_conductivity=case.scene.lubricant.conductivity,
+            oil_conductivity=case.scene.lubricant.conductivity_under(film.fluid),
             face=film.grid.repeats * film.grid.shape[0] * film.grid.spacing if film.grid.periodic else None,
         )
         warm = law.temperatures(rubbing)
@@ -75,7 +74,7 @@ def inlet_ease(case: Case) -> float:
     """Return the factor by which the oil flows more easily for the heat of shear in the inlet (`heat.inlet_shear`)."""
     if case.scene.heat.inlet_shear == "none" or not case.loaded or not case.entrained:
         return 1.0
-    return inlet_factor(case) ** (-1.0 / _FILM_OF_VISCOSITY)
+    return inlet_factor(case) ** (-1.0 / FILM_OF_VISCOSITY)
 
 
 def inlet_factor(case: Case) -> float:

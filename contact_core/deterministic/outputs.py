@@ -117,6 +117,7 @@ def _error_outputs(scene: Scene, state: ContactState, values: dict[str, Any]) ->
 
     return {
         "error_friction": relative("friction_coefficient", out.friction_coefficient),
+        "error_rolling": relative("rolling_resistance", out.rolling_resistance),
         "error_film": relative("h_c", out.h_c),
         "error_load_ratio": found["contact_load_ratio"].together,
         **{f"error_{name}": relative(name, values[name]) for name in ("tribofilm_1", "tribofilm_2")},

@@ -1,5 +1,6 @@
 """Errors of the contact's solution: by the grid, by the inlet that it cuts off, and by iterations that stop early."""
 
+import math
 from collections.abc import Callable, Mapping
 
 from ..film.grid_error import (
@@ -17,10 +18,12 @@ from ..film.inlet_loss import NEGLIGIBLE, PEAK
 from ..film.lengths import inlet_length
 from ..scene import Case
 from ..state import Error, Outputs
+from .rolling import beyond_grid
 
 # of an output over roughness: what four times as many iterations still change, and what a solution has at most that did
 # not converge
 _STOPPED, _UNCONVERGED = 0.01, 0.3
+_ON_SOLIDS, _AT_EDGE = 0.5, 0.25  # of rolling resistance: part where solids carry all; of its share beyond the grid
 _RELATIVE: dict[str, Callable[[float, float, float], float]] = {
     "h_c": film_error,
     "lambda_ratio": film_error,
@@ -60,6 +63,8 @@ def _half_width(case: Case, out: Outputs, name: str, rough: float, film: float) 
         return friction_error(share, out.friction_solid, out.friction_force - out.friction_solid, rough, film)
     if name == "contact_load_ratio":
         return load_ratio_error(share, rough, film)
+    if name == "rolling_resistance":
+        return min(math.hypot(film, _ON_SOLIDS * share), 1.0) * value
     if name.startswith("tribofilm_"):
         smoother = name != f"tribofilm_{case.scene.rougher + 1}"
         return tribofilm_error(share, rough, film, smoother=smoother) * value
@@ -71,6 +76,8 @@ def _by_inlet(case: Case, out: Outputs, name: str, lost: float) -> float:
     """Return the half width of an output by film that is missing, over the film that is found."""
     if name in _WITHOUT_FILM:
         return 0.0
+    if name == "rolling_resistance":  # its share beyond the grid is added; the edge takes some of what is before it
+        return _AT_EDGE * abs(beyond_grid(case, case.grid(case.scene.rows)))
     if name in _PARTS:
         part, of = _PARTS[name]
         return part * lost * abs(getattr(out, of))

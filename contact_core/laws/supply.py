@@ -1,5 +1,6 @@
 """Oil supply before the contact."""
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -28,6 +29,10 @@ class Flooded:
     def film(self, flooded: float, half_width: float, radius: float, resistance: float) -> float:
         """Return the central film thickness [m] of smooth bodies: the flooded one."""
         return flooded
+
+    def reach(self, half_width: float, radius: float) -> float:
+        """Return how far before the centre the inlet is full: without an end."""
+        return math.inf
 
 
 @dataclass(frozen=True)
@@ -58,6 +63,12 @@ class SupplyFilm:
         """Return the central film thickness [m] of smooth bodies, from that of a flooded contact [m]."""
         return supplied_film(flooded, self.thickness, resistance=resistance)
 
+    def reach(self, half_width: float, radius: float) -> float:
+        """Return how far before the centre [m] the inlet is full: to a gap of twice the layer, as what is refused piles
+        up before the contact (fitted to solved films: `python -m benchmarks.film.rolling`).
+        """
+        return math.sqrt(half_width**2 + 4.0 * radius * self.thickness)
+
 
 @dataclass(frozen=True)
 class Meniscus:
@@ -86,6 +97,10 @@ class Meniscus:
     def film(self, flooded: float, half_width: float, radius: float, resistance: float) -> float:
         """Return the central film thickness [m] of smooth bodies, from that of a flooded contact [m]."""
         return film_behind_meniscus(flooded, self.distance, half_width, radius)
+
+    def reach(self, half_width: float, radius: float) -> float:
+        """Return how far before the centre [m] the inlet is full."""
+        return self.distance
 
 
 LAWS: tuple[type[Supply], ...] = (Flooded, SupplyFilm, Meniscus)

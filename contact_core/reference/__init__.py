@@ -21,15 +21,16 @@ from .evolution import archard_depth, ghanbarzadeh_thickness, load_cycles
 from .heat import jaeger_band, jaeger_circle, tian_kennedy_circle
 from .hertz import Hertz, HertzLine, brewe_hamrock, hertz_line, hertz_point, palmgren_approach
 from .line_films import SmoothLine, dowson_line, line_film, moes_line, moes_line_film
-from .oil import bair_thinning_factor, inlet_shear_factor
+from .oil import FILM_OF_VISCOSITY, bair_thinning_factor, inlet_shear_factor
 from .point_films import SmoothContact, chittenden, hamrock_dowson, moes_film, nijenbanning_venner_moes, nvm_film
 from .profiles import logarithmic_drop, lundberg_depth, rounded_drop
-from .rolling import rolling_line, rolling_point, slipping_share
+from .rolling import rolling_beyond_line, rolling_beyond_point, rolling_line, rolling_point, slipping_share
 from .sliders import ParabolicSlider
 from .squeeze import squeeze_line, squeeze_point, squeezed_line, squeezed_point
 from .starvation import film_behind_meniscus, supplied_film
 
 __all__ = [
+    "FILM_OF_VISCOSITY",
     "Hertz",
     "HertzLine",
     "ParabolicSlider",
@@ -58,6 +59,8 @@ __all__ = [
     "nijenbanning_venner_moes",
     "nvm_film",
     "palmgren_approach",
+    "rolling_beyond_line",
+    "rolling_beyond_point",
     "rolling_line",
     "rolling_point",
     "rounded_drop",

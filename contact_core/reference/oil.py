@@ -1,5 +1,7 @@
 """Effect of heat and shear of the oil on the film thickness."""
 
+FILM_OF_VISCOSITY = 0.67  # power of the viscosity in the film of smooth bodies (Hamrock & Dowson)
+
 
 def inlet_shear_factor(
     viscosity: float,

@@ -4,6 +4,8 @@ import math
 
 from .hertz import hertz_point
 
+_FULL = 1.0 / 3.0  # of the radius: as far before the centre a flooded inlet of a point is full
+
 
 def rolling_line(
     load: float, entrainment_speed: float, viscosity: float, radius: float, reduced_modulus: float
@@ -49,6 +51,38 @@ def rolling_point(
     rigid, elastic = 0.77 * beta ** (-1 / 3) * slim**0.12 * speed ** (-1 / 12), 1.8 * beta**-0.25
     share = (rigid - elastic) / (1.0 + stiffness / 6.6) + elastic
     return float(2.0 * hertz.b * reduced_modulus * radius_x * share * speed**0.75)
+
+
+def rolling_beyond_line(entrainment_speed: float, viscosity: float, radius: float, distance: float) -> float:
+    """Return what of `rolling_line` [N/m] lies beyond a distance [m] before the centre, where the gap is x^2 / (2 R).
+
+    There the flow is that of the entrained oil alone, dp/dx = 12 eta0 u_e / h^2, and the integral 12 eta0 u_e R / x.
+    """
+    return 12.0 * viscosity * entrainment_speed * radius / distance
+
+
+def rolling_beyond_point(
+    entrainment_speed: float,
+    viscosity: float,
+    radius_x: float,
+    radius_y: float,
+    before: float,
+    beside: float = math.inf,
+) -> float:
+    """Return the integral of (h/2) dp/dx [N] over the inlet of a point contact outside |x| < before, |y| < beside.
+
+    Far from the contact the gap is h = x^2 / (2 R_x) + y^2 / (2 R_y) and the pressure 12 eta0 u_e |x| / [(3 + 2 k)
+    h^2], k = R_x / R_y. The integral over x < 0 grows as the logarithm of the distance, so it ends at the gap of R_x /
+    3 before the contact: with that it is what solved films lack of `rolling_point`. The term with 0.65 is a fit to the
+    quadrature over the rectangle, within 1 % for beside sqrt(k) >= before.
+    Source of the pressure: Kapitza, Zh. Tekh. Fiz. 25 (1955) 747; Brewe, Hamrock & Taylor, J. Lubr. Technol. 101
+    (1979) 231, doi:10.1115/1.3453326.
+    """
+    slim = radius_x / radius_y
+    sides = 0.65 / math.hypot(beside * math.sqrt(slim) / before, 1.2)
+    decades = math.log(_FULL * radius_x / (2.0 * before)) + 1.0 - sides
+    whole = 12.0 * math.pi * viscosity * entrainment_speed * radius_x / ((3.0 + 2.0 * slim) * math.sqrt(slim))
+    return whole * max(decades, 0.0)
 
 
 def slipping_share(creep: float, friction: float, half_width: float, radius: float) -> float:

@@ -47,6 +47,7 @@ class MeanContact(NamedTuple):
     into_1: float  # part of it that goes into body 1 [W]
     spin_torque: float  # on body 1 [N m]
     rolling: float  # resistance of the oil [N]
+    supplied: float  # part of that of a flooded inlet
     oil_slope: float  # d ln(its friction) / d ln(sliding speed)
     hottest: float  # largest temperature of the surfaces [K]
     stated: "Stated | None" = None  # errors where another level knows them better than the curves
@@ -89,7 +90,7 @@ def evaluate(case: Case, tribofilms: Tribofilms, derivatives: bool = True) -> Me
         sigma, cover = composite_roughness(tribofilms), mean_cover(scene, tribofilms)
         gap = max(sigma, scene.film.floor)
         return MeanContact(
-            tribofilms, sigma, cover, UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 10, max(op.bodies)
+            tribofilms, sigma, cover, UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 9, 1.0, 0.0, max(op.bodies)
         )
     sliding, surfaces = op.sliding_speed, surfaces_of(case, tribofilms)
     further = STEP * math.copysign(max(abs(sliding), scene.boundary_friction.slip_speed), sliding)
@@ -107,6 +108,7 @@ def evaluate(case: Case, tribofilms: Tribofilms, derivatives: bool = True) -> Me
     solid = [point.solid * point.turned for point in points]
     oil = [force * _between(point, slope) for point, force in zip(points, fluid, strict=True)]
     forces = [one + other for one, other in zip(solid, oil, strict=True)]
+    held = math.sqrt(now.shares.load) * (1.0 - min(math.sqrt(smooth.film / now.shares.gap), 1.0))
     turning = pull * slide - abs(forces[0] * op.sliding_speed)  # power that sliding leaves to spin
     return MeanContact(
         tribofilms,
@@ -127,7 +129,8 @@ def evaluate(case: Case, tribofilms: Tribofilms, derivatives: bool = True) -> Me
         pull * slide,
         into_1,
         -turning / op.spin if op.spin != 0.0 else 0.0,
-        smooth.rolling * (1.0 - now.shares.load),  # solids make no oil flow
+        smooth.rolling * (1.0 - held),  # the inlet is open where solids hold it so
+        smooth.supplied,
         slope,
         hottest,
     )
@@ -226,7 +229,8 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
     second = np.array([two, two - more, two, two, two, two + faster][:count])
     one, two = op.bodies
     bodies = (one + warmer, two + warmer)
-    heat = MeanHeat.of(scene.heat, hertz, (first, second), bodies, areas, gaps, scene.lubricant.conductivity)
+    conductivity = scene.lubricant.conductivity_under(hertz.mean_share * pressures)
+    heat = MeanHeat.of(scene.heat, hertz, (first, second), bodies, areas, gaps, conductivity)
     warm = heat.film(start, lambda film: np.abs((solid + friction(film)) * rubbing))
     return friction(warm).tolist(), heat
 

@@ -28,6 +28,8 @@ _BLANK = Outputs()
 # share of the roughness or more, for curves of fresh surfaces; not that of the exposure, which changes little in hours
 _BEYOND, _RUN_IN, _CHANGED = 2.0, 2.0, 0.1
 _UNKNOWN = 1e3  # relative, of wear where next to no solids touch: nobody knows
+# relative, of rolling resistance: of the formula, where solids carry all, and where no oil is left to the inlet
+_ROLLING, _ROLLING_ON_SOLIDS, _ROLLING_STARVED = 0.33, 0.7, 0.7
 _LOCAL = 1.0  # error of tribofilms that depend on local stresses, of which this level knows the mean
 
 
@@ -154,7 +156,14 @@ def half_widths(case: Case, contact: MeanContact) -> dict[str, Any]:
     gap is that of bodies that just touch: nothing is known of it.
     """
     if not case.loaded:
-        none = ("error_friction", "error_load_ratio", "error_tribofilm_1", "error_tribofilm_2", "error_wear")
+        none = (
+            "error_friction",
+            "error_rolling",
+            "error_load_ratio",
+            "error_tribofilm_1",
+            "error_tribofilm_2",
+            "error_wear",
+        )
         return dict.fromkeys(none, 0.0) | {"error_film": 1.0}
     force, share = abs(contact.solid + contact.fluid), contact.load_ratio
     sharing = regression_film(case.scene).sharing
@@ -176,12 +185,19 @@ def half_widths(case: Case, contact: MeanContact) -> dict[str, Any]:
     grown = _LOCAL if case.scene.tribofilm.abrades else exposed
     return {
         "error_friction": relative,
+        "error_rolling": _of_rolling(contact),
         "error_film": min(film, 1.0),
         "error_load_ratio": min(load, 1.0),
         "error_tribofilm_1": grown,
         "error_tribofilm_2": grown,
         "error_wear": wear,
     }
+
+
+def _of_rolling(contact: MeanContact) -> float:
+    """Return the relative half width of the rolling resistance: by its formula, by solids, and by a short supply."""
+    solids, starved = _ROLLING_ON_SOLIDS * contact.load_ratio, _ROLLING_STARVED * (1.0 - contact.supplied)
+    return math.hypot(math.hypot(_ROLLING, solids), starved)
 
 
 def _of_history(before: Outputs, films: tuple[float, float], means: Means, now: dict[str, Any]) -> dict[str, float]:
@@ -219,6 +235,7 @@ def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
     given = {
         "friction_force": abs(out.friction_force) * out.error_friction,
         "friction_coefficient": out.friction_coefficient * out.error_friction,
+        "rolling_resistance": abs(out.rolling_resistance) * out.error_rolling,
         "h_c": out.h_c * out.error_film,
         "contact_load_ratio": out.error_load_ratio,
     }

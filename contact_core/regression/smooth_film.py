@@ -4,7 +4,7 @@ import math
 from functools import lru_cache
 from typing import NamedTuple
 
-from ..reference import inlet_shear_factor
+from ..reference import FILM_OF_VISCOSITY, inlet_shear_factor
 from ..scene import Case, Scene
 from .oil import Law
 
@@ -23,6 +23,7 @@ class SmoothFilm(NamedTuple):
     by_load: float  # [1/N]
     by_temperature: float  # [1/K]
     rolling: float  # resistance [N]
+    supplied: float  # part of that of a flooded inlet
 
 
 def smooth_film(case: Case, further: float) -> SmoothFilm:
@@ -48,6 +49,11 @@ def smooth_film(case: Case, further: float) -> SmoothFilm:
         return supply.film(flooded, hertz.a * grown, shape.radius_x, shape.side_resistance)
 
     now = film(speed, load, slide, oil, inlet)
+    flooded = shape.film(max(load, LIGHTEST), max(speed, SLOWEST), *oil, modulus)
+    by_heat = 1.0
+    if thins:
+        by_heat = _thinned(scene, speed, largest * hertz.growth(load)[0], slide, oil[0], flooded, inlet)
+        flooded *= by_heat
     by_load = film(speed, load * (1.0 + STEP), slide, oil, inlet) / now - 1.0
     by_temperature = film(speed, load, slide, warm, inlet + KELVIN) / now - 1.0
     by_speed = film(speed * (1.0 + STEP), load, slide, oil, inlet) / now - 1.0
@@ -58,21 +64,34 @@ def smooth_film(case: Case, further: float) -> SmoothFilm:
         by_speed / math.copysign(STEP * max(speed, SLOWEST), entrainment),
         by_load / (STEP * load),
         by_temperature / KELVIN,
-        _rolling(case, oil, now if sheared or starves else None),
+        *_rolling(case, oil[0], by_heat, now / flooded),
     )
 
 
-def _rolling(case: Case, oil: tuple[float, float], film: float | None) -> float:
-    """Return the rolling resistance [N] of the smooth bodies.
+def _rolling(case: Case, viscosity: float, thinned: float, starved: float) -> tuple[float, float]:
+    """Return the rolling resistance [N] of the smooth bodies, and what supply has left of that of a flooded inlet.
 
-    The force is taken to fall as the film [m] falls below that of flooded, cold oil; None: it does not.
+    `thinned`: film by heat and shear of the inlet over the one without, which is that of a less viscous oil; `starved`:
+    film over the flooded one. The inlet is full as far as `reach` says: what lies beyond makes nothing, and the meniscus
+    takes from what lies before it the more, the nearer it is (fitted to solved films: benchmarks.film.rolling).
     """
-    speed = case.op.entrainment_speed
-    if abs(speed) < SLOWEST:
-        return 0.0
-    shape, modulus, load = case.shape, case.scene.solids.reduced_modulus, max(case.op.load, LIGHTEST)
-    left = 1.0 if film is None else film / shape.film(load, abs(speed), *oil, modulus)
-    return math.copysign(left * shape.rolling(load, abs(speed), oil[0], modulus), speed)
+    entrainment, shape, supply = case.op.entrainment_speed, case.shape, case.scene.lubricant.supply
+    speed = abs(entrainment)
+    if speed < SLOWEST:
+        return 0.0, 1.0
+    eta = viscosity * thinned ** (1.0 / FILM_OF_VISCOSITY)
+    load = max(case.op.load, LIGHTEST)
+    flooded = shape.rolling(load, speed, eta, case.scene.solids.reduced_modulus)
+    left = 1.0
+    if supply.starves:
+        half_width = case.unit_hertz.a * case.unit_hertz.growth(load)[0]
+        reach = max(supply.reach(half_width, shape.radius_x), half_width)
+        beyond = shape.rolling_beyond(speed, eta, reach, math.inf)
+        near = (flooded - shape.rolling_beyond(speed, eta, half_width, math.inf)) * (half_width / reach) ** 4
+        left = min(max(1.0 - (beyond + near) / flooded, 0.0), 1.0)
+        if supply.layer is not None:  # a layer enters as a whole, and what it makes is of the film that it leaves
+            left *= starved
+    return math.copysign(left * flooded, entrainment), left
 
 
 def _thinned(

@@ -95,6 +95,12 @@ class Shape(Protocol):
     def rolling(self, load: float, speed: float, viscosity: float, reduced_modulus: float) -> float:
         """Return the rolling resistance [N] of the smooth bodies for an entrainment speed [m/s], load above zero."""
 
+    def rolling_beyond(self, speed: float, viscosity: float, before: float, beside: float) -> float:
+        """Return what of it lies outside |x| < before [m], |y| < beside [m], there under the viscosity [Pa s] of p = 0.
+
+        Nearer than a Hertz contact, where bodies are no parabolas, nobody asks.
+        """
+
 
 class GridRecord(Protocol):
     """The grid in a film record."""

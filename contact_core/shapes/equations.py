@@ -15,6 +15,8 @@ REDUCED = (
     "and starvation (lubricant.supply) reduce the film."
 )
 ROLLING_NOTE = (
-    "Smooth bodies with a flooded inlet, U = 2 η0 u_e/(E′ Rx) (Biboulet and Houpert 2010), times the share 1 − Wc of "
-    "the load on the oil. Inlet heating, thinning and starvation reduce it as they reduce the film."
+    "Smooth bodies with a flooded inlet, U = 2 η0 u_e/(E′ Rx) (Biboulet and Houpert 2010), times s, as solids hold the "
+    "inlet open. Inlet heating and thinning act as a less viscous oil; of a short supply, what the inlet lacks is "
+    "taken off."
 )
+HELD_OPEN = "s = 1 − W_c^{1/2} [1 − min(h_s/h_c, 1)^{1/2}]"

@@ -8,9 +8,9 @@ import numpy as np
 from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing, LineSharing
 from ..quantities import parameter
-from ..reference import Hertz, SmoothLine, dowson_line, hertz_line, line_film, rolling_line
+from ..reference import Hertz, SmoothLine, dowson_line, hertz_line, line_film, rolling_beyond_line, rolling_line
 from .base import Array, Bodies, GridRecord, Shape, Viscosity
-from .equations import PARABOLAS, REDUCED, ROLLING_NOTE
+from .equations import HELD_OPEN, PARABOLAS, REDUCED, ROLLING_NOTE
 
 SMOOTH_LINE = Equations(
     ("h_s = R_x U^{1/2} H(M, L),   Z = h_s/σ",),
@@ -27,13 +27,15 @@ SMOOTH_LINE = Equations(
 )
 ROLLING_LINE = Equations(
     (
-        "F_r = b E′ R_x 1.42 (U w)^{1/2} [1 + (0.966 M^{1/2})^{10}]^{−1/10} (1 − W_c)",
+        "F_r = b E′ R_x 1.42 (U w)^{1/2} [1 + (0.966 M^{1/2})^{10}]^{−1/10} s",
+        HELD_OPEN,
         "w = W/(b E′ R_x),   M = w U^{−1/2}",
     ),
     ROLLING_NOTE + " b is the face width.",
     title="Rolling resistance",
     source="Biboulet & Houpert, Proc. IMechE J 224 (2010) 765, doi:10.1243/13506501JET790",
     symbols={
+        "s": "part that an inlet leaves which solids hold open [1]",
         "U": "speed parameter 2 η_0 u_e/(E′ R_x) [1]",
         "b": "face width, geometry.face_width [m]",
     },
@@ -105,6 +107,10 @@ class Line:
     def rolling(self, load: float, speed: float, viscosity: float, reduced_modulus: float) -> float:
         """Return the rolling resistance [N] of the smooth bodies."""
         return self.length * rolling_line(load / self.length, speed, viscosity, self.radius_x, reduced_modulus)
+
+    def rolling_beyond(self, speed: float, viscosity: float, before: float, beside: float) -> float:
+        """Return what of it [N] lies beyond a distance; the oil along the face flows nowhere else."""
+        return self.length * rolling_beyond_line(speed, viscosity, self.radius_x, before)
 
 
 def no_radius_y(geometry: str, radius_y: float | None) -> str:

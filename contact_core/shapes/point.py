@@ -8,9 +8,9 @@ import numpy as np
 from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing
 from ..quantities import input_parameter
-from ..reference import Hertz, SmoothContact, hamrock_dowson, hertz_point, nvm_film, rolling_point
+from ..reference import Hertz, SmoothContact, hamrock_dowson, hertz_point, nvm_film, rolling_beyond_point, rolling_point
 from .base import Array, Bodies, GridRecord, Shape, Viscosity, combined
-from .equations import HALF_SPACE, LOAD_BALANCE, PARABOLAS, REDUCED, ROLLING_NOTE
+from .equations import HALF_SPACE, HELD_OPEN, LOAD_BALANCE, PARABOLAS, REDUCED, ROLLING_NOTE
 
 
 @dataclass(frozen=True)
@@ -107,6 +107,10 @@ class Point:
         """Return the rolling resistance [N] of the smooth bodies."""
         return rolling_point(load, speed, viscosity, self.radius_x, self.radius_y, reduced_modulus)
 
+    def rolling_beyond(self, speed: float, viscosity: float, before: float, beside: float) -> float:
+        """Return what of it [N] lies outside |x| < before, |y| < beside."""
+        return rolling_beyond_point(speed, viscosity, self.radius_x, self.radius_y, before, beside)
+
 
 @dataclass(frozen=True, kw_only=True)
 class PointGeometry(Bodies):
@@ -136,7 +140,8 @@ class PointGeometry(Bodies):
     )
     rolling: ClassVar[Equations] = Equations(
         (
-            "F_r = 2 b E′ R_x U^{3/4} [(r − e)/(1 + M/6.6) + e] (1 − W_c)",
+            "F_r = 2 b E′ R_x U^{3/4} [(r − e)/(1 + M/6.6) + e] s",
+            HELD_OPEN,
             "r = 0.77 β^{−1/3} k^{0.12} U^{−1/12},   e = 1.8 β^{−1/4}",
             "M = β^{1/4} k W/(E′ R_x^2) U^{−3/4},   β = E′ a/(π p_H R_x),   k = a/b",
         ),
@@ -144,6 +149,7 @@ class PointGeometry(Bodies):
         title="Rolling resistance",
         source="Biboulet & Houpert, Proc. IMechE J 224 (2010) 777, doi:10.1243/13506501JET791",
         symbols={
+            "s": "part that an inlet leaves which solids hold open [1]",
             "U": "speed parameter 2 η_0 u_e/(E′ R_x) [1]",
         },
     )

@@ -5,6 +5,8 @@
     optical_films   measured: central films from 5 mm/s to 4 m/s
     dimple          measured: a dimple that crosses a contact
     oils            measured: viscosities of the named oils
+    base_oils       measured: pressure coefficients by two viscosities and a family
+    traction        measured: friction of full films
     asperity_load   published numerical: share of the load on the solids
     film_formulas   published numerical: films of points and lines
     starvation      published numerical: films of too little oil

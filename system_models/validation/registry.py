@@ -7,6 +7,7 @@ from contact_core.errors import ContactError
 
 from . import (
     asperity_load,
+    base_oils,
     dimple,
     dry_contact,
     film_formulas,
@@ -16,6 +17,7 @@ from . import (
     starvation,
     stresses,
     thesis,
+    traction,
 )
 from .model import Comparison, Outcome
 
@@ -23,6 +25,8 @@ COMPARISONS: dict[str, Comparison] = {
     "optical_films": optical_films.COMPARISON,
     "dimple": dimple.COMPARISON,
     "oils": oils.COMPARISON,
+    "base_oils": base_oils.COMPARISON,
+    "traction": traction.COMPARISON,
     "asperity_load": asperity_load.COMPARISON,
     "film_formulas": film_formulas.COMPARISON,
     "starvation": starvation.COMPARISON,

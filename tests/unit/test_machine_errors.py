@@ -30,6 +30,13 @@ def test_contacts_count_by_the_energy_they_lose_and_by_how_many_they_stand_for(f
     assert loss_error(*machine(first, second)) == approx(error)
 
 
+def test_rolling_counts_with_its_own_error():
+    assembly, dataset = machine(4.0, 0.0)
+    columns = {"rolling_resistance": -3.0, "speed_1": -1.0, "speed_2": -3.0, "error_rolling": 0.5}
+    dataset = dataset.assign({f"one.{name}": ("time", np.full(3, value)) for name, value in columns.items()})
+    assert loss_error(assembly, dataset) == approx((0.1 * 4.0 + 0.5 * 12.0) / 16.0)
+
+
 def test_longer_steps_count_more():
     assembly, dataset = machine(1.0, 0.0)
     dataset["one.error_friction"].values[:] = (9.0, 0.1, 0.4)  # the first row is of no time

@@ -43,6 +43,7 @@ DEFINED = {
     **dict.fromkeys(("contact_load_ratio", "contact_load_ratio_disc"), ("friction_solid load^-1",)),
     **dict.fromkeys(("contact_area_ratio", "contact_area_ratio_disc", "coverage"), ("radius_x radius_y^-1",)),
     "error_friction": ("friction_coefficient friction_coefficient^-1",),
+    "error_rolling": ("rolling_resistance rolling_resistance^-1",),
     "error_film": ("h_c h_c^-1",),
     "error_tribofilm": ("tribofilm_1 tribofilm_1^-1",),
     "error_load_ratio": ("contact_load_ratio",),
