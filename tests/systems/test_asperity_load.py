@@ -55,9 +55,9 @@ def test_lambda_counts_the_waves_below_the_grid():
 
 
 @pytest.mark.parametrize(
-    ("changes", "verdict"), [({}, Verdict.WITHIN_ERROR), ({"surface_2.microroughness.rms": "60 nm"}, Verdict.DISAGREES)]
+    ("changes", "verdict"), [({}, Verdict.WITHIN_ERROR), ({"surface_2.correlation_length": "25 um"}, Verdict.DISAGREES)]
 )
-def test_roughness_below_the_grid_decides_and_is_seen(monkeypatch, changes, verdict):
+def test_longer_waves_of_a_scene_are_seen(monkeypatch, changes, verdict):
     known = asperity_load.CONTACTS["mtm_zddp"]
     monkeypatch.setitem(asperity_load.CONTACTS, "mtm_zddp", replace(known, changes=changes))
     assert asperity_load._contact("mtm_zddp", 0).verdict is verdict
