@@ -114,6 +114,10 @@ PAGES: dict[str, Source] = {
     "stress/curves": Source("stress.curves", (*LEVELS, "stress", *SHAPES)),
     "surfaces/transition": Source("surfaces.transition", (*LEVELS, *SHAPES)),
     "surfaces/asperity_layer": Source("surfaces.asperity_layer", ("film",)),
+    "surfaces/asperity_load_share": Source(
+        "surfaces.asperity_load_share",
+        ("film", "evolution", "control", "uncertainty", "grid_error", *SHAPES, "pin_on_disc"),
+    ),
     "surfaces/grids": Source("surfaces.grids", ("film", "evolution", "control", "data", "azam_case_a")),
     "surfaces/finishes": Source("surfaces.finishes", ()),
     "surfaces/hardness": Source("surfaces.hardness", ("film", "evolution", "control", *CIRCLES)),

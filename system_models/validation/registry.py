@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from contact_core.errors import ContactError
 
 from . import (
+    asperity_load,
     base_oils,
     dimple,
     dry_contact,
@@ -26,6 +27,7 @@ COMPARISONS: dict[str, Comparison] = {
     "oils": oils.COMPARISON,
     "base_oils": base_oils.COMPARISON,
     "traction": traction.COMPARISON,
+    "asperity_load": asperity_load.COMPARISON,
     "film_formulas": film_formulas.COMPARISON,
     "starvation": starvation.COMPARISON,
     "dry_contact": dry_contact.COMPARISON,

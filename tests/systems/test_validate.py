@@ -13,7 +13,7 @@ from system_models.validation import dimple, film_formulas, flash, registry, str
 from system_models.validation.model import Cause, Comparison, Kind, Outcome, Row, Verdict, rounding
 from system_models.validation.registry import COMPARISONS, outcome
 
-MINUTES = {"optical_films", "dimple"}  # of solving: tests/reference/test_measured_films.py has them on a coarse grid
+MINUTES = {"optical_films", "dimple", "asperity_load"}  # of solving: test_measured_films, test_asperity_load have parts
 
 
 @pytest.mark.parametrize(
