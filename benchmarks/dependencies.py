@@ -136,6 +136,7 @@ PAGES: dict[str, Source] = {
     "friction/traction": Source("friction.traction", (*LEVELS, "azam_case_a", "mtm_zddp")),
     "friction/laws_cost": Source("friction.laws_cost", ("film", "evolution", "control", "data", "azam_case_a")),
     "machines/bearing_loads": Source("machines.bearing_loads", RIGS),
+    "machines/rolling": Source("machines.rolling", (*RIGS, *LEVELS, "evolution", "control")),
     "machines/bearing_torque": Source("machines.bearing_torque", RIGS),
     "machines/bearing_memory": Source("machines.bearing_memory", RIGS),
     "machines/bearing_life": Source("machines.bearing_life", (*RIGS, "evolution", "control")),

@@ -5,6 +5,7 @@
     optical_films   measured: central films from 5 mm/s to 4 m/s
     dimple          measured: a dimple that crosses a contact
     oils            measured: viscosities of the named oils
+    rolling_torques measured: friction torques of bearings that roll
     zddp_films      measured: tribofilms and friction of ZDDP
     film_formulas   published numerical: films of points and lines
     starvation      published numerical: films of too little oil
