@@ -171,8 +171,8 @@ COMPARISON = Comparison(
     "Smooth steel discs under mineral oils and a polyalphaolefin at the regression level: the largest friction beside "
     "Dyson's formula for mineral oils in disc machines, tau = 0.3 p/(2.52 + 0.024 t) - 25 MPa; peaks and slopes at "
     "1 GPa beside a prediction that its authors found within 0.005 of the curves of Mann's twin discs (radii, bulk "
-    "temperatures and the points themselves are not printed). Cold mineral oils at 1.4 GPa are at their limiting stress, "
-    "which is that formula's own: their rows judge the rest alone. Stated error: the distance from solved films.",
+    "temperatures and the points themselves are not printed). Cold mineral oils at 1.4 GPa are at their limiting "
+    "stress, which is that formula's own: their rows judge the rest alone. Stated error: the distance from solved films.",
     "Dyson, Phil. Trans. R. Soc. A 266 (1970) 1, as printed by Zhou & Hoeprich, J. Tribol. 113 (1991) 590, "
     "doi:10.1115/1.2920664; Arana, Larranaga & Ulacia, Proc. IMechE J 233 (2019) 303, doi:10.1177/1350650118778655",
     run,
