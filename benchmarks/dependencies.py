@@ -54,7 +54,8 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "cam_tappet": ("contact_core/data/scenes/cam_tappet.toml",),
     "pin_on_disc": ("contact_core/data/scenes/pin_on_disc.toml",),
     "measurements": ("system_models/validation/data/*.csv", "system_models/validation/dimple.py",
-                     "system_models/validation/optical_films.py", "system_models/validation/tables.py"),
+                     "system_models/validation/optical_films.py", "system_models/validation/tables.py",
+                     "system_models/validation/traction.py"),
     "stribeck": ("system_models/run/stribeck.py", "system_models/run/duty.py", "system_models/run/duty_table.py"),
     "fit": ("system_models/run/fit*.py", "-system_models/run/fit_report.py", "system_models/run/duty_table.py"),
     "machines": ("system_models/machines/*.py", "system_models/machines/*.toml", "system_models/machines/*.csv",
@@ -113,7 +114,12 @@ PAGES: dict[str, Source] = {
     "stress/curves": Source("stress.curves", (*LEVELS, "stress", *SHAPES)),
     "surfaces/transition": Source("surfaces.transition", (*LEVELS, *SHAPES)),
     "surfaces/asperity_layer": Source("surfaces.asperity_layer", ("film",)),
+    "surfaces/asperity_load_share": Source(
+        "surfaces.asperity_load_share",
+        ("film", "evolution", "control", "uncertainty", "grid_error", *SHAPES, "pin_on_disc"),
+    ),
     "surfaces/grids": Source("surfaces.grids", ("film", "evolution", "control", "data", "azam_case_a")),
+    "surfaces/finishes": Source("surfaces.finishes", ()),
     "surfaces/hardness": Source("surfaces.hardness", ("film", "evolution", "control", *CIRCLES)),
     "surfaces/film_wear": Source(
         "surfaces.film_wear", ("film", "evolution", "regression", "control", "data", "azam_case_a")
@@ -134,6 +140,7 @@ PAGES: dict[str, Source] = {
     "regression/hottest": Source("regression.hottest", (*LEVELS, *SHAPES)),
     "regression/cost": Source("regression.cost", ("film", "regression", *CIRCLES)),
     "friction/traction": Source("friction.traction", (*LEVELS, "azam_case_a", "mtm_zddp")),
+    "friction/published_traction": Source("friction.published_traction", (*LEVELS, "fzg_flank", "measurements")),
     "friction/laws_cost": Source("friction.laws_cost", ("film", "evolution", "control", "data", "azam_case_a")),
     "machines/bearing_loads": Source("machines.bearing_loads", RIGS),
     "machines/rolling": Source("machines.rolling", (*RIGS, *LEVELS, "evolution", "control")),

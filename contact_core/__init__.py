@@ -6,6 +6,7 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     advance          checks once, binds scene and operating point in a `Case`, hands over to the level
     deterministic/   the level that solves the contact node by node
     regression/      the level of film formulas and fitted curves, microseconds a step
+    assumed          what the assumptions of a scene are worth, by the regression level
     correction       what solved contacts say about the errors of the regression level elsewhere
     amended          a contact of the regression level with friction, film and W_c from elsewhere
     auto             the level of the regression level, corrected by blocks where it is not sure enough
@@ -28,12 +29,13 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     data/            named oils, solids and tribofilms, and the shipped scenes
 
 Imports run one way: errors, progress, quantities, reference <- entry_points, kernels <- laws <- shapes <- film <-
-scene <- state, calls <- surfaces <- deterministic, regression, correction <- amended <- auto, mapped <- advance. The
-first two levels do not import each other. Everything inside is SI; heights are metres above a body's mean plane,
-positive toward the other body; arrays are [ny, nx], x along entrainment.
+scene <- state, calls <- surfaces <- deterministic, regression, correction <- amended <- auto, mapped <- advance,
+assumed. The first two levels do not import each other. Everything inside is SI; heights are metres above a body's mean
+plane, positive toward the other body; arrays are [ny, nx], x along entrainment.
 """
 
 from .advance import advance, uncertainty, warm_up
+from .assumed import Assumption, assumed
 from .calls.dry_contact import DryContact, dry_contact
 from .calls.line_contact import LineContact, line_contact
 from .calls.point_contact import PointContact, point_contact
@@ -43,7 +45,7 @@ from .deterministic.march import Moment, march, run_cycle
 from .deterministic.present import present_instant
 from .deterministic.transient import parted
 from .errors import ContactError, ConvergenceError, FilmTooWideError, OperatingPointError, SceneError, StateError
-from .laws.profile import Logarithmic, Rounded
+from .laws.profile import Logarithmic, Measured, Rounded
 from .scene import OperatingPoint, Scene
 from .scene.toml import shipped_scenes
 from .state import ContactState, Error, Outputs, RangeFlag, initial_state
@@ -52,6 +54,7 @@ from .surfaces.profiles import Track, track_of
 __version__ = "0.1.0"
 
 __all__ = [
+    "Assumption",
     "ContactError",
     "ContactFields",
     "ContactState",
@@ -61,6 +64,7 @@ __all__ = [
     "FilmTooWideError",
     "LineContact",
     "Logarithmic",
+    "Measured",
     "Moment",
     "OperatingPoint",
     "OperatingPointError",
@@ -75,6 +79,7 @@ __all__ = [
     "Track",
     "Transient",
     "advance",
+    "assumed",
     "dry_contact",
     "graded_depths",
     "initial_state",

@@ -51,6 +51,8 @@ CHOICES: dict[str, list[Change]] = {
         _of("lubricant.rheology", "eyring", limiting_coefficient="0"),
         _of("lubricant.rheology", "newtonian"),
         _of("lubricant.rheology", "newtonian", limiting_coefficient="0.05"),
+        _of("lubricant.rheology", "eyring", limiting_coefficient="0.061", limiting_fall="0.0055 K^-1")
+        | {"lubricant.conductivity_rise": "1.72 GPa^-1", "lubricant.conductivity_bend": "0.54 GPa^-1"},
         _of("lubricant.rheology", "carreau", critical_stress="5 MPa", exponent="0.5"),
         _of("lubricant.rheology", "carreau", critical_stress="1 MPa", exponent="0.7") | {"lubricant.flow": "local"},
     ],

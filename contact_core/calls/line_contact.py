@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..film.instant import Grid
-from ..laws.profile import Logarithmic, Rounded
+from ..laws.profile import Logarithmic, Measured, Rounded
 from ..quantities import out_of_range, parameter
 from ..shapes import Line, Profile, Roller
 from .common import (
@@ -97,7 +97,7 @@ def line_contact(
     length
         Length of the line [m]; 1 m if not given.
     profile
-        Ends of a roller, such as `Rounded` or `Logarithmic`.
+        Ends of a roller, such as `Rounded`, `Logarithmic` or `Measured`.
     viscosity_law, density_law, hardness, floor, cavitation, supply, meniscus, tolerance, iterations, flux, fft
         As in `point_contact`.
     accuracy
@@ -166,8 +166,11 @@ def line_contact(
 
 def _no_profile(profile: Profile, length: float) -> list[str]:
     """Return sentences on what is wrong with a profile for a roller of a length [m]."""
-    if isinstance(profile, type) or not isinstance(profile, (Rounded, Logarithmic)):
-        return [f"profile = {profile!r} must be a Rounded(straight, radius) or a Logarithmic(depth), in metres."]
+    if isinstance(profile, type) or not isinstance(profile, (Rounded, Logarithmic, Measured)):
+        return [
+            f"profile = {profile!r} must be a Rounded(straight, radius), a Logarithmic(depth) or a Measured(ends), in "
+            "metres."
+        ]
     values = {f"profile.{f.name}": getattr(profile, f.name) for f in fields(profile)}
     sentences = no_numbers(values) or list(out_of_range(profile, "profile"))
     if not sentences and isinstance(profile, Rounded) and profile.straight > length:

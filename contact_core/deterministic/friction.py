@@ -82,7 +82,8 @@ def shear(case: Case, film: Film) -> Shear:
     if film.oil_friction is not None:
         return Shear(film.oil_friction * film.fluid, solid, speed, along_x, along_y)
     newtonian = _viscosity(case, film, film.fluid, film.temperature) * speed / film.gap
-    fluid = oil.rheology(newtonian, film.fluid * boundary.grip(speed))
+    limiting = film.fluid * boundary.grip(speed) * oil.rheology.limiting_left(film.temperature)
+    fluid = oil.rheology(newtonian, limiting)
     return Shear(fluid, solid, speed, along_x, along_y)
 
 
@@ -132,8 +133,9 @@ def derivatives(case: Case, film: Film) -> dict[str, float]:
     speed = np.maximum(speed, _STEP * boundary.slip_speed)  # at rest the slope is that of the limit
     viscosity = _viscosity(case, film, film.fluid, film.temperature)
     newtonian = viscosity * speed / film.gap
-    grip, grip_slope = boundary.grip(speed), boundary.grip_slope(speed)
-    by_newtonian, by_pressure = oil.rheology.slopes(newtonian, film.fluid * grip)
+    left = oil.rheology.limiting_left(film.temperature)
+    limiting = film.fluid * boundary.grip(speed) * left
+    by_newtonian, by_pressure = oil.rheology.slopes(newtonian, limiting)
     more, less = (_viscosity(case, film, film.fluid * (1.0 + sign * _STEP), film.temperature) for sign in (1.0, -1.0))
     stiffening = (more - less) / (2.0 * _STEP)  # d viscosity / d ln p
     step = _STEP * float(np.mean(film.temperature))
@@ -144,13 +146,15 @@ def derivatives(case: Case, film: Film) -> dict[str, float]:
     def force(stress: Array) -> float:
         return -float((stress * along_x).sum()) * cell
 
-    by_speed = by_newtonian * viscosity / film.gap + by_pressure * film.fluid * grip_slope + solid_by_speed
+    by_grip = by_pressure * film.fluid * left
+    by_speed = by_newtonian * viscosity / film.gap + by_grip * boundary.grip_slope(speed) + solid_by_speed
     if np.ndim(speed):  # along the sliding the law decides, across it the direction
-        across = (oil.rheology(newtonian, film.fluid * grip) + solid) / np.maximum(speed, 1e-300)
+        across = (oil.rheology(newtonian, limiting) + solid) / np.maximum(speed, 1e-300)
         by_speed = by_speed * np.square(along_x) + across * np.square(along_y)
     sliding_slope = -float(by_speed.sum()) * cell
-    by_load = by_newtonian * stiffening * speed / film.gap + by_pressure * film.fluid * grip + solid
+    by_load = by_newtonian * stiffening * speed / film.gap + by_pressure * limiting + solid
     by_temperature = by_newtonian * (warmer - colder) / (2.0 * step) * speed / film.gap
+    by_temperature -= by_pressure * limiting * oil.rheology.limiting_fall
     return {
         "dfriction_dspeed_1": sliding_slope,
         "dfriction_dspeed_2": -sliding_slope,

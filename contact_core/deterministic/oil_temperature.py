@@ -57,7 +57,7 @@ def warmed(
             spacing=film.grid.spacing,
             speeds=case.speeds,
             bodies=case.op.bodies,
-            oil_conductivity=case.scene.lubricant.conductivity,
+            oil_conductivity=case.scene.lubricant.conductivity_under(film.fluid),
             face=film.grid.repeats * film.grid.shape[0] * film.grid.spacing if film.grid.periodic else None,
         )
         warm = law.temperatures(rubbing)

@@ -63,13 +63,20 @@ class Rheology(Law, Hashable, Protocol):
 
     @property
     def limiting_coefficient(self) -> float:
-        """Limiting shear stress over pressure; 0: no limit."""
+        """Limiting shear stress over pressure at 40 degC; 0: no limit."""
+
+    @property
+    def limiting_fall(self) -> float:
+        """Relative fall of the limiting shear stress with temperature [1/K]."""
 
     def __call__(self, newtonian: Array, pressure: Array) -> Array:
         """Return the shear stress [Pa] for that of a Newtonian oil, under a pressure [Pa]."""
 
     def slopes(self, newtonian: Array, pressure: Array) -> tuple[Array, Array]:
         """Return the derivatives of the stress by `newtonian` and by pressure."""
+
+    def limiting_left(self, temperature: Numbers) -> Numbers:
+        """Return the limiting stress at temperatures [K] over that at 40 degC."""
 
     def ease(self, stress: Array) -> Array:
         """Return the shear rate at a stress [Pa] over that of a Newtonian oil."""

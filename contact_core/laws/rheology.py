@@ -1,7 +1,7 @@
 """Shear stress of the film between the surfaces.
 
 A law maps the stress that a Newtonian oil would have, viscosity times shear rate, to the stress of this one. No film
-carries more than `limiting_coefficient` times its pressure.
+carries more than `limiting_coefficient` times its pressure, of which `limiting_left` is left in a warm oil.
 """
 
 from abc import ABC, abstractmethod
@@ -15,15 +15,25 @@ from numpy.typing import NDArray
 from ..quantities import parameter
 from ..reference import bair_thinning_factor
 from .base import Rheology
+from .elementary import Numbers, exp
 from .equations import Equations
 
 Array = NDArray[np.float64]
 
+_LIMIT_AT = 313.15  # K, temperature to which a limiting coefficient belongs
+_LIMIT = "τ_L = Λ p_f exp[β_L (T_L − T)]"
+_OF_THE_LIMIT = "Λ: limiting_coefficient; 0 means no limit."
 _EASIEST = 500.0  # at e^500 times the Newtonian shear rate a film slips: no need to overflow
 
 
 def _limiting_coefficient() -> Any:
-    return parameter("", "limiting shear stress / pressure; 0: no limit", least=0.0, most=1.0, default=0.0)
+    return parameter("", "limiting shear stress / pressure at 40 degC; 0: no limit", least=0.0, most=1.0, default=0.0)
+
+
+def _limiting_fall() -> Any:
+    return parameter(
+        "1/K", "relative fall of the limiting shear stress with temperature", least=0.0, most=0.02, default=0.0
+    )
 
 
 class _Limited(ABC):
@@ -36,6 +46,7 @@ class _Limited(ABC):
     inlet_thinning: ClassVar[Equations | None] = None  # of the film by shear in the inlet, where a formula is known
 
     limiting_coefficient: float
+    limiting_fall: float
 
     @abstractmethod
     def _stress(self, newtonian: Array) -> Array: ...
@@ -46,12 +57,16 @@ class _Limited(ABC):
     def __call__(self, newtonian: Array, pressure: Array) -> Array:
         """Return the shear stress [Pa] with the sign of `newtonian`, under a pressure [Pa].
 
-        `newtonian` is viscosity times shear rate [Pa].
+        `newtonian` is viscosity times shear rate [Pa]. The pressure is that of an oil of 40 degC with the same limit.
         """
         stress = self._stress(np.abs(newtonian))
         if self.limiting_coefficient > 0.0:
             stress = np.minimum(stress, self.limiting_coefficient * pressure)
         return np.copysign(stress, newtonian)
+
+    def limiting_left(self, temperature: Numbers) -> Numbers:
+        """Return the limiting stress at temperatures [K] over that at 40 degC."""
+        return 1.0 if self.limiting_fall == 0.0 else exp(self.limiting_fall * (_LIMIT_AT - temperature))
 
     def film_factor(self, newtonian_film: float, speed: float, viscosity: float, slide_roll_ratio: float) -> float:
         """Return the central film thickness over that of a Newtonian oil [m]: 1, no formula is known."""
@@ -74,10 +89,14 @@ class Newtonian(_Limited):
     name: ClassVar[str] = "newtonian"
     source: ClassVar[str] = "limit: Bair & Winer, J. Lubr. Technol. 101 (1979) 258, doi:10.1115/1.3453342"
     equations: ClassVar[Equations] = Equations(
-        ("τ_{oil} = τ_N,   at most Λ p_f",),
-        "Λ: limiting_coefficient; 0 means no limit.",
+        ("τ_{oil} = τ_N,   at most τ_L", _LIMIT),
+        _OF_THE_LIMIT,
         symbols={
             "Λ": "limiting_coefficient",
+            "β_L": "limiting_fall",
+            "T": "temperature of the oil [K]",
+            "T_L": "40 degC, to which Λ belongs [K]",
+            "τ_L": "limiting shear stress [Pa]",
         },
         left_out=(
             "Shear thinning of the oil: thin films that slide fast rub more than they would, once the Newtonian "
@@ -87,6 +106,7 @@ class Newtonian(_Limited):
     thins: ClassVar[bool] = False
 
     limiting_coefficient: float = _limiting_coefficient()
+    limiting_fall: float = _limiting_fall()
 
     def _stress(self, newtonian: Array) -> Array:
         return newtonian
@@ -108,10 +128,14 @@ class Eyring(_Limited):
         "Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129; limit: Bair & Winer 1979, doi:10.1115/1.3453342"
     )
     equations: ClassVar[Equations] = Equations(
-        ("τ_{oil} = τ_E arsinh(τ_N/τ_E),   at most Λ p_f",),
-        "Λ: limiting_coefficient; 0 means no limit.",
+        ("τ_{oil} = τ_E arsinh(τ_N/τ_E),   at most τ_L", _LIMIT),
+        _OF_THE_LIMIT,
         symbols={
             "Λ": "limiting_coefficient",
+            "β_L": "limiting_fall",
+            "T": "temperature of the oil [K]",
+            "T_L": "40 degC, to which Λ belongs [K]",
+            "τ_L": "limiting shear stress [Pa]",
             "τ_E": "eyring_stress",
         },
     )
@@ -121,6 +145,7 @@ class Eyring(_Limited):
         "Pa", "shear stress at which the fluid begins to thin", least=1.0, most=1e12, quantity="Stress"
     )
     limiting_coefficient: float = _limiting_coefficient()
+    limiting_fall: float = _limiting_fall()
 
     def _stress(self, newtonian: Array) -> Array:
         return self.eyring_stress * np.arcsinh(newtonian / self.eyring_stress)
@@ -144,10 +169,14 @@ class Carreau(_Limited):
         "1979, doi:10.1115/1.3453342"
     )
     equations: ClassVar[Equations] = Equations(
-        ("τ_{oil} = τ_N [1 + (τ_N/G)^2]^{(n − 1)/2},   at most Λ p_f",),
-        "Λ: limiting_coefficient; 0 means no limit.",
+        ("τ_{oil} = τ_N [1 + (τ_N/G)^2]^{(n − 1)/2},   at most τ_L", _LIMIT),
+        _OF_THE_LIMIT,
         symbols={
             "Λ": "limiting_coefficient",
+            "β_L": "limiting_fall",
+            "T": "temperature of the oil [K]",
+            "T_L": "40 degC, to which Λ belongs [K]",
+            "τ_L": "limiting shear stress [Pa]",
             "G": "critical_stress",
             "n": "exponent",
         },
@@ -174,6 +203,7 @@ class Carreau(_Limited):
     )
     exponent: float = parameter("", "n, power of the shear rate in a thin fluid", above=0.0, most=1.0)
     limiting_coefficient: float = _limiting_coefficient()
+    limiting_fall: float = _limiting_fall()
 
     def _stress(self, newtonian: Array) -> Array:
         return newtonian * np.hypot(1.0, newtonian / self.critical_stress) ** (self.exponent - 1.0)

@@ -21,7 +21,7 @@ class Rubbing:
     spacing: float  # of the grid [m]
     speeds: Pair  # of both surfaces along x, relative to the contact [m/s]
     bodies: Pair  # bulk temperatures [K]
-    oil_conductivity: float  # [W/(m K)]
+    oil_conductivity: float | Array  # [W/(m K)]
     face: float | None = None  # length [m] along which the rows repeat themselves; None: they do not
 
     @property

@@ -6,7 +6,7 @@ A law takes pressures [Pa] and temperatures [K], numbers or arrays that broadcas
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,14 @@ _LN_ETA_INF = -9.67  # ln(6.31e-5 Pa s)
 _STIFF = 500.0  # an oil e^500 times stiffer than at p = 0 does not flow: no need to overflow
 _STIFFEST_DOUBLE_LOG = 2.3  # log10 log10 of e^459 mm2/s, for the same reason
 _ASSUMED_DENSITY = 870.0  # kg/m3, of oils whose law has none
+_FIFTEEN = 288.15  # K
+
+
+def _expansion() -> Any:
+    return parameter(
+        "K^-1", "thermal expansion, relative to the density at 15 degC; assumed 7e-4 if not given",
+        least=0.0, most=1e-3, default=7e-4,
+    )  # fmt: skip
 
 
 # exponents beyond which powers of pressures and temperatures are no numbers any more; oils have 0.7 and 1.5
@@ -162,6 +170,11 @@ class Modulus:
     modulus_slope: float = parameter("Pa/K", "a2, rise of that with temperature", least=0.0, most=1e7)
     bend: float = parameter("", "b1, rise of the modulus with pressure, at T = 0 K", least=-1.0, most=1.0)
     bend_slope: float = parameter("K^-1", "b2, rise of that with temperature", least=-1e-2, most=1e-2)
+    density: float = parameter(
+        "kg/m3", "density at 15 degC, p = 0; assumed 870 kg/m3 if not given", least=600.0, most=2500.0,
+        default=_ASSUMED_DENSITY,
+    )  # fmt: skip
+    expansion: float = _expansion()
 
     def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
         """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
@@ -172,38 +185,47 @@ class Modulus:
         exponent = exponent + self.vogel_slope / (self.vogel_offset + temperature)
         return self.vogel_viscosity * exp(minimum(exponent, _STIFF))
 
+    def density_at(self, temperature: Numbers) -> Numbers:
+        """Return the density [kg/m3] at p = 0."""
+        return _density_at(self, temperature)
+
 
 @dataclass(frozen=True)
 class AstmD341:
     """An oil from its data sheet: kinematic viscosities at 40 and 100 degC, density, one pressure coefficient.
 
     log10 log10(nu + 0.7) = A - B log10 T, nu in mm2/s, for nu above 2 mm2/s; the density falls linearly with
-    temperature. Under pressure Roelands' law with an exponent z that no temperature changes:
-    eta = eta_inf (eta(0, T) / eta_inf)^[(1 + p/p0)^z], eta_inf = 63.1 uPa s, p0 = 196 MPa.
+    temperature. Under pressure the modulus equation, eta = eta(0, T) exp{p / [1/alpha + b p]}: the pressure coefficient
+    alpha at p = 0 falls with temperature as Roelands' does, as ln(eta(0, T) / 63.1 uPa s), and the bend b grows
+    linearly with temperature.
     """
 
     name: ClassVar[str] = "astm_d341"
     source: ClassVar[str] = (
         "ASTM D341, Standard Practice for Viscosity-Temperature Charts for Liquid Petroleum Products; under pressure "
-        "Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of oils, TU Delft 1966"
+        "Gold et al., J. Synth. Lubr. 18 (2001) 51; the coefficient's fall with temperature: Roelands, Correlational "
+        "aspects of the viscosity-temperature-pressure relationship of oils, TU Delft 1966"
     )
     equations: ClassVar[Equations] = Equations(
         (
             "log_{10} log_{10}(ν + 0.7) = A − B log_{10} T,   ν in mm^2/s",
             "η(0, T) = ν ρ,   ρ = ρ_{15} [1 − ε (T − 288.15)]",
-            "η = η_∞ [η(0, T)/η_∞]^m,   m = (1 + p/p_0)^z",
+            "η = η(0, T) exp{p/[1/α + b p]}",
+            "α = α_0 ln[η(0, T)/η_∞]/ln[η(0, T_0)/η_∞],   b = b_{40} + (b_{100} − b_{40}) (T − 313.15)/60",
         ),
         "A straight line through the data sheet's two viscosities; the density falls linearly "
-        "with temperature. Under pressure Roelands' law, 63.1 µPa s and 196 MPa.",
+        "with temperature. Under pressure the modulus equation, with Roelands' fall of the coefficient.",
         symbols={
             "ν": "kinematic viscosity [mm2/s]",
             "A": "constant of the line through viscosity_40 and viscosity_100 [1]",
             "B": "slope of that line [1]",
             "ρ_{15}": "density",
             "ε": "expansion",
+            "α_0": "pressure_coefficient",
+            "T_0": "reference_temperature",
             "η_∞": "63.1 µPa s [Pa s]",
-            "p_0": "196 MPa [Pa]",
-            "z": "exponent of the pressure, by the pressure_coefficient at the reference_temperature [1]",
+            "b_{40}": "bend_40",
+            "b_{100}": "bend_100",
         },
     )
 
@@ -218,10 +240,12 @@ class AstmD341:
         "Pa^-1", "d ln(viscosity)/dp at p = 0 and the reference temperature", least=0.0, most=1e-7
     )
     reference_temperature: float = parameter("K", "temperature of the pressure coefficient", least=230.0, most=500.0)
-    expansion: float = parameter(
-        "K^-1", "thermal expansion, relative to the density at 15 degC; assumed 7e-4 if not given",
-        least=0.0, most=1e-3, default=7e-4,
+    expansion: float = _expansion()
+    bend_40: float = parameter(
+        "", "rise of the modulus (inverse pressure coefficient) with pressure at 40 degC; assumed that of paraffinic "
+        "mineral oils", least=0.0, most=1.0, default=0.0175,
     )  # fmt: skip
+    bend_100: float = parameter("", "the same at 100 degC", least=0.0, most=1.0, default=0.0348)
 
     @property
     def error(self) -> str:
@@ -233,8 +257,8 @@ class AstmD341:
             f"{self.viscosity_40:g} m2/s: oils thin when they warm. Exchange the two if they were mixed up."
         )
 
-    def _log_viscosity(self, temperature: Numbers) -> Numbers:
-        """Return ln(viscosity / eta_inf) at p = 0."""
+    def log_viscosity(self, temperature: Numbers) -> Numbers:
+        """Return ln(viscosity / 63.1 uPa s) at p = 0."""
         at_40, slope = self._chart
         double_log = minimum(at_40 - slope * log10(temperature / 313.15), _STIFFEST_DOUBLE_LOG)
         kinematic = 1e-6 * (10.0 ** (10.0**double_log) - 0.7)
@@ -242,7 +266,7 @@ class AstmD341:
 
     def density_at(self, temperature: Numbers) -> Numbers:
         """Return the density [kg/m3] at p = 0."""
-        return self.density * maximum(1.0 - self.expansion * (temperature - 288.15), 0.1)  # far beyond any oil
+        return _density_at(self, temperature)
 
     @cached_property
     def _chart(self) -> tuple[float, float]:
@@ -251,14 +275,21 @@ class AstmD341:
         return at_40, (at_40 - at_100) / math.log10(373.15 / 313.15)
 
     @cached_property
-    def _z(self) -> float:
-        """Exponent of the pressure."""
-        return float(self.pressure_coefficient * _P0 / self._log_viscosity(self.reference_temperature))
+    def _steepness(self) -> float:
+        """Pressure coefficient [1/Pa] per ln(viscosity / eta_inf)."""
+        return float(self.pressure_coefficient / self.log_viscosity(self.reference_temperature))
 
     def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
         """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
-        exponent = self._log_viscosity(temperature) * (1.0 + pressure / _P0) ** self._z
-        return exp(minimum(_LN_ETA_INF + exponent, _STIFF))
+        thickness = self.log_viscosity(temperature)
+        stiffening = maximum(self._steepness * thickness, 0.0) * pressure
+        bend = self.bend_40 + (self.bend_100 - self.bend_40) * (temperature - 313.15) / 60.0
+        exponent = stiffening / (1.0 + maximum(bend, 0.0) * stiffening)
+        return exp(minimum(_LN_ETA_INF + thickness + exponent, _STIFF))
+
+
+def _density_at(law: Modulus | AstmD341, temperature: Numbers) -> Numbers:
+    return law.density * maximum(1.0 - law.expansion * (temperature - _FIFTEEN), 0.1)  # far beyond any oil
 
 
 def kinematic_viscosity(law: Viscosity, temperature: Numbers) -> Numbers:
@@ -266,7 +297,7 @@ def kinematic_viscosity(law: Viscosity, temperature: Numbers) -> Numbers:
 
     Of laws that know no density it is that of an oil of 870 kg/m3.
     """
-    density = law.density_at(temperature) if isinstance(law, AstmD341) else _ASSUMED_DENSITY
+    density = law.density_at(temperature) if isinstance(law, Modulus | AstmD341) else _ASSUMED_DENSITY
     return law(0.0, temperature) / density
 
 

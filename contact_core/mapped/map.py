@@ -33,7 +33,7 @@ COORDINATES = (  # of a contact by the regression level, in the order of `query.
 )
 STEEPEST = 3.0  # largest logarithm of a factor
 _FORMAT = 2
-_APART = ("name", "description", "operation", "control")  # parts of a scene that no map depends on
+_APART = ("name", "description", "operation", "control", "intervals")  # parts of a scene that no map depends on
 
 
 @dataclass(frozen=True)

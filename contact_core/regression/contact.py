@@ -229,7 +229,8 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
     second = np.array([two, two - more, two, two, two, two + faster][:count])
     one, two = op.bodies
     bodies = (one + warmer, two + warmer)
-    heat = MeanHeat.of(scene.heat, hertz, (first, second), bodies, areas, gaps, scene.lubricant.conductivity)
+    conductivity = scene.lubricant.conductivity_under(hertz.mean_share * pressures)
+    heat = MeanHeat.of(scene.heat, hertz, (first, second), bodies, areas, gaps, conductivity)
     warm = heat.film(start, lambda film: np.abs((solid + friction(film)) * rubbing))
     return friction(warm).tolist(), heat
 

@@ -30,8 +30,9 @@ def oil_shear(scene: Scene, hertz: Hertz, pressures: Array, rates: Array, grips:
     parts, weights = hertz.pressure_nodes
     local = parts * pressures
     viscosity: Law = scene.lubricant.viscosity
+    rheology = scene.lubricant.rheology
     newtonian = viscosity(local, temperatures) * rates
-    shear: Array = weights @ scene.lubricant.rheology(newtonian, local * grips)
+    shear: Array = weights @ rheology(newtonian, local * grips * rheology.limiting_left(temperatures))
     return shear
 
 
@@ -54,7 +55,7 @@ class MeanHeat(NamedTuple):
         bodies: Pair,
         areas: Array,
         gaps: Array,
-        oil_conductivity: float,
+        oil_conductivity: Array | float,
     ) -> "MeanHeat":
         """Return the heat of both bodies, half spaces at their speeds [m/s] under an even source that holds still.
 

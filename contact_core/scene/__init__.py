@@ -9,6 +9,9 @@
     operation   operating points, and the duty of a scene
     case        a scene at an operating point, bound once per step
     defaults    what a scene that does not say otherwise has
+    bases       families of base oils
+    intervals   what a scene assumes, and between which values it may lie
+    finishes    what a finish such as "ground" says of a surface
     hertz_grid  grid of a scene that gives none
     accuracy    grid, tolerance, blocks and instants for an accuracy that is asked for
     checks      what makes a scene or an operating point unusable

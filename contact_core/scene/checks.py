@@ -6,6 +6,7 @@ from dataclasses import fields, replace
 from itertools import pairwise
 
 from ..quantities import out_of_range
+from . import intervals
 from .fields import ROOM, SceneFields
 from .operation import OperatingPoint
 
@@ -61,7 +62,8 @@ def errors(scene: SceneFields) -> list[tuple[str, str]]:
     if not re.fullmatch(r"[\w-]+", scene.name):  # files are named after it
         ranges.append(("name", f"name = {scene.name!r} must be letters, digits, '_' and '-' only."))
     return ranges or [
-        *_shape_errors(scene), *_roughness_errors(scene), *_oil_errors(scene), *_duty_errors(scene)
+        *_shape_errors(scene), *_roughness_errors(scene), *_oil_errors(scene), *_duty_errors(scene),
+        *(("intervals", sentence) for sentence in intervals.errors(scene)),
     ]  # fmt: skip
 
 

@@ -19,6 +19,7 @@ from ..laws.scuffing import NoScuffing
 from ..laws.stress import NoStress
 from ..reference import Hertz
 from ..shapes import Geometry, Shape
+from .intervals import Interval
 from .operation import OperatingPoint, Operation
 from .records import Control, Lubricant, Solids
 from .self_affine import SelfAffine
@@ -51,6 +52,7 @@ class SceneFields:
     stress: Stress = field(default=NoStress())
     fatigue: Fatigue = field(default=NoFatigue())
     scuffing: Scuffing = field(default=NoScuffing())
+    intervals: tuple[Interval, ...] = ()  # of what is assumed
 
     def to_dict(self) -> dict[str, Any]:
         """Return nested tables, from which `Scene.from_dict` makes an equal scene, bit for bit."""

@@ -33,7 +33,7 @@ _ELLIPSE, _LONG_ELLIPSE = 1.5, 4.0  # longer half width over the shorter one
 _INLETS = {True: 6.0, False: 10.0}  # that there is room for, on both sides together; with a far field beyond the grid
 _LENGTHS = 5.0  # correlation lengths along a side
 _NODES = 1.95  # in a correlation length
-_LENGTH = "correlation_length"
+_LENGTHENED = ("correlation_length", "correlation_length_across")
 PROVISIONAL = {"points": POINTS[0], "domain": "1 m"}
 
 
@@ -81,8 +81,8 @@ def resolved(
     kept, least = [], f"{2e6 * scene.film.spacing:.4g} um"
     for each in assumed:
         part, _, field = each.key.partition(".")
-        lengthens = field == _LENGTH and "points" in open_fields and not getattr(scene, part).smooth
-        if lengthens and getattr(scene, part).length < _NODES * scene.film.spacing:
+        lengthens = field in _LENGTHENED and "points" in open_fields and not getattr(scene, part).smooth
+        if lengthens and getattr(getattr(scene, part), field) < _NODES * scene.film.spacing:
             scene = with_values(scene, {each.key: parse(least, "m", each.key)})
             each = each._replace(value=least, why="assumed: two nodes of the grid")
         kept.append(each)

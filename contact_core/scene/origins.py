@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from .accuracy import provisional
+from .finishes import FILE
 from .toml import completed, file_of_set, flat, full_key, given, text_of
 
 _LINE = re.compile(r"""((?:[^"'#]|"(?:[^"\\]|\\.)*"|'[^']*')*)(?:#\s*(.*))?$""")  # what a line says, and its comment
@@ -114,7 +115,8 @@ def origins(
     kept = {key: value for key, value in flat(original).items() if flat(written).get(key) == value}
     sets = dict([*_sets(original), *_sets(written)])  # a setting of `model` writes out what a set had said
     comments = comments_of(text_of(source))
-    return {key: _origin(key, kept, comments, changes, chosen, sets) for key in flat(table)}
+    values = (key for key in flat(table) if key != "intervals")
+    return {key: _origin(key, kept, comments, changes, chosen, sets) for key in values}
 
 
 class _Set(NamedTuple):
@@ -132,6 +134,8 @@ def _sets(table: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, _Set]
             yield from _sets(value, where)
         elif key == "set":
             yield path, _read_set(str(value), path)
+        elif key == "finish":
+            yield f"{path}.{key}", _read_finish(str(value).lower(), path)
 
 
 def _read_set(chosen: str, path: str) -> _Set:
@@ -147,6 +151,15 @@ def _read_set(chosen: str, path: str) -> _Set:
     return _Set(f"{own}, {file.name}", values, Comments("", *inside), str(data.get("source", "")))
 
 
+def _read_finish(name: str, path: str) -> _Set:
+    """Return a finish as a set of a surface; what a scene takes of it may be scaled, and is told as it is taken."""
+    found = comments_of(FILE.read_text("utf-8"))
+    own = {key.removeprefix(f"{name}."): said for key, said in found.by_key.items() if key.startswith(f"{name}.")}
+    inside = {f"{path}.{key}": said for key, said in (own | {"correlation_length_across": own["lay"]}).items()}
+    keys = ("rq", "correlation_length", "correlation_length_across", "microroughness.rms", "microroughness.longest")
+    return _Set(f"{name}, {FILE.name}", {f"{path}.{key}": None for key in keys}, Comments("", inside, {}), "")
+
+
 def _origin(
     key: str,
     kept: Mapping[str, Any],
@@ -160,8 +173,8 @@ def _origin(
         return Origin(Kind.SETTING, written=changes.get(key, changes.get(named)))
     if named in kept:
         return Origin(Kind.FILE, comments.remark(named), comments.source(named), kept[named])
-    for path, found in sets.items():
-        if key in found.values and key.startswith(f"{path}."):
+    for found in sets.values():
+        if key in found.values:
             said = found.comments
             source = said.source(key) or found.source
             return Origin(Kind.SET, said.remark(key), source, found.values[key], found.name)

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 from ..laws.base import Density, DoubleLayer, Rheology, Supply, Viscosity
 from ..laws.double_layer import NoDoubleLayer
+from ..laws.elementary import Numbers
 from ..laws.supply import Flooded
 from ..quantities import parameter
 
@@ -62,7 +63,15 @@ class Lubricant:
     viscosity: Viscosity
     density: Density
     rheology: Rheology
-    conductivity: float = parameter("W/(m K)", "thermal conductivity of the oil", least=1e-3, most=10.0, default=0.14)
+    conductivity: float = parameter(
+        "W/(m K)", "thermal conductivity of the oil at p = 0", least=1e-3, most=10.0, default=0.14
+    )
+    conductivity_rise: float = parameter(
+        "1/Pa", "relative rise of the conductivity with pressure at p = 0", least=0.0, most=1e-8, default=0.0
+    )
+    conductivity_bend: float = parameter(
+        "1/Pa", "how the rise of the conductivity falls with pressure", least=0.0, most=1e-8, default=0.0
+    )
     flow: str = parameter(
         "",
         "what Reynolds' equation sees: newtonian, the viscosity at the inlet's temperature; local, that of the local "
@@ -79,6 +88,16 @@ class Lubricant:
     )
     supply: Supply = field(default=Flooded())
     double_layer: DoubleLayer = field(default=NoDoubleLayer())
+
+    def conductivity_under(self, pressure: Numbers) -> Numbers:
+        """Return the thermal conductivity [W/(m K)] at pressures [Pa].
+
+        k (1 + c p/(1 + b p)): Larsson & Andersson, Proc. IMechE J 214 (2000) 337.
+        """
+        if self.conductivity_rise == 0.0:
+            return self.conductivity
+        rise = self.conductivity_rise * pressure / (1.0 + self.conductivity_bend * pressure)
+        return self.conductivity * (1.0 + rise)
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from .defaults import Assumed, completed_by_defaults
 from .fields import SceneFields
 from .height_map import HeightMap
 from .heights import Heights
+from .intervals import applicable
 from .operation import OperatingPoint
 from .problems import TableError
 from .surface import SEEDS
@@ -145,7 +146,8 @@ def _built(table: Mapping[str, Any], folders: tuple[Path, ...]) -> tuple[Scene, 
         error.way_out = _TO_START
         raise
     first, second = (getattr(scene, name).with_file(name, folders) for name in ("surface_1", "surface_2"))
-    scene = replace(scene, surface_1=first, surface_2=second, film=with_map_found(scene.film, folders))
+    film, intervals = with_map_found(scene.film, folders), applicable(scene)
+    scene = replace(scene, surface_1=first, surface_2=second, film=film, intervals=intervals)
     if of_grid:
         _refuse_ranges(scene)  # first, for the contact's size is asked for
     scene = planned(hertz_grid.fitted(scene, of_grid), for_accuracy)

@@ -4,7 +4,7 @@ import difflib
 import pickle
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
 from functools import lru_cache
 from importlib.resources import files
@@ -33,9 +33,10 @@ _KINDS: dict[str, tuple[type[Model], ...]] = {
 }
 _USUAL = {"geometry", "surface_1", "surface_2"}  # without a `model`: the first kind
 _UNNAMED = Surface  # its tables have never had a `model`, and stored states go by their text
-_DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data sheet"
+DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 15 degC of the data sheet"
 NO_UTF_8 = "it is not in UTF-8. Save it as UTF-8."  # in place of Python's words on a byte
 _TOO = {"operation.duration": " `tribofmu run` takes it as --hours, too."}
+_OF_FINISH = ("rq", "correlation_length", "correlation_length_across", "microroughness")
 _SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
 
 
@@ -93,7 +94,18 @@ def given(source: str | Path, overrides: Mapping[str, str]) -> tuple[dict[str, A
             table[path] = _with_file(table.get(path, {}), value, folders)
         else:
             override(table, key, located({last: value}, *reversed(folders))[last])
+    if isinstance(table.get("intervals"), Mapping):
+        table["intervals"] = _still_assumed(table["intervals"], changes)
     return table, folders
+
+
+def _still_assumed(intervals: Mapping[str, Any], changes: Iterable[str]) -> dict[str, Any]:
+    """Return the intervals of values that no change of a dotted key, or of its set, has replaced.
+
+    Another model keeps the values that it has in common with the one before.
+    """
+    roots = [key.removesuffix(".set") for key in changes]
+    return {k: ends for k, ends in intervals.items() if not any(f"{k}.".startswith(f"{root}.") for root in roots)}
 
 
 def _with_file(surface: Mapping[str, Any], file: str, folders: tuple[Path, ...]) -> dict[str, Any]:
@@ -151,7 +163,7 @@ def override(table: dict[str, Any], key: str, value: str) -> None:
     """Set a dotted key.
 
     A new `model` keeps the keys it shares with the old one and drops the others; a new `set`, or list of sets, drops
-    all other keys; `seed` drops the list `seeds`;
+    all other keys; `seed` drops the list `seeds`; `finish` drops the keys that it gives;
     `control.accuracy` drops those that it chooses, but for film.domain.
     """
     if key == ACCURACY:
@@ -174,6 +186,9 @@ def override(table: dict[str, Any], key: str, value: str) -> None:
         table.clear()
     if last == "seed":
         table.pop("seeds", None)
+    if last == "finish" and table.get(last) != value:
+        for each in _OF_FINISH:
+            table.pop(each, None)
     table[last] = value
 
 
@@ -286,6 +301,8 @@ _SET_FILES = {
     "stress": "fatigue",
     "fatigue": "fatigue",
     "scuffing": "scuffing",
+    "surface_1": "surfaces",
+    "surface_2": "surfaces",
 }
 
 
@@ -348,8 +365,7 @@ def with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
         where = f" in '{file}'" if _OF_FILE in chosen else ""
         known = f"Known are {', '.join(sets)}." if sets else f"There is no [NAME.{path}] in that file."
         raise SceneError(f"[{path}] has no set '{name}'{where}.{did_you_mean(name, list(sets))} {known}")
-    own = _beside(sets[name], file.parent) if _OF_FILE in chosen else sets[name]
-    return _merged(own, table, path)
+    return _merged(_beside(sets[name], file.parent), table, path)
 
 
 def _beside(table: Mapping[str, Any], folder: Path) -> dict[str, Any]:
@@ -385,12 +401,14 @@ def _missing(full: str, f: "Field[Any]") -> Missing:
     part, _, last = full.rpartition(".")
     models, sets = models_of(last), named_sets(part)
     instead = f", or {part}.set = one of {', '.join(sets)}" if sets else ""
+    if full in ("surface_1.rq", "surface_2.rq"):
+        instead = f", or {part}.finish, such as 'ground' or 'polished'{instead}"
     if "unit" in f.metadata:
         unit, text = f.metadata["unit"], f"{f.metadata['text']}{instead}"
         unit = f" [{unit}]" if unit else ""
         return Missing(full, f"{unit} ({text})".strip(), f"Give it{unit}: {text}.{_TOO.get(full, '')}")
     if models:
-        sheet = f"{_DATA_SHEET}, or " if full == "lubricant.viscosity" else ""
+        sheet = f"{DATA_SHEET}, or " if full == "lubricant.viscosity" else ""
         text = f"{sheet}a 'model': {', '.join(law.name for law in models)}{instead}"
         return Missing(full, f"({text})", f"Add the table, with {text}.")
     if f.type in (str, "str"):
@@ -415,7 +433,7 @@ def unbuild(record: Any) -> dict[str, Any]:
     table: dict[str, Any] = {"model": record.name} if named else {}
     for f in fields(record):
         value = getattr(record, f.name)
-        if value is None:
+        if value is None or value == ():
             continue
         if is_dataclass(value):
             table[f.name] = unbuild(value)
@@ -441,7 +459,9 @@ def override_order(item: tuple[str, str]) -> int:
     """Return the rank in which an override is applied: sets, models and accuracy first; they decide on other keys."""
     if item[0] in ensemble.LISTS:  # before the member that is picked of them
         return -1
-    return {"set": 0, "model": 1, "accuracy": 2}.get(item[0].rpartition(".")[2], 0 if item[0] in ensemble.FILES else 3)
+    return {"set": 0, "model": 1, "accuracy": 2, "finish": 2}.get(
+        item[0].rpartition(".")[2], 0 if item[0] in ensemble.FILES else 3
+    )
 
 
 def completed(table: Mapping[str, Any]) -> dict[str, Any]:

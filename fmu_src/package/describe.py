@@ -17,6 +17,7 @@ from ..runtime.guarded import LOG_CATEGORIES
 from ..runtime.resources import MODEL, guid
 from ..variables import Value, Variable, variables
 from . import licences
+from .assumptions import with_assumptions
 from .usable import usable
 
 INITIAL = {"parameter": "exact", "output": "calculated"}  # other causalities have one kind, which is left out
@@ -50,7 +51,8 @@ def described(scene: Scene, flavour: Flavour, version: Version = 2) -> Model:
 
 def variables_of(scene: Scene, flavour: Flavour) -> tuple[Variable, ...]:
     """Return the variables that the FMU of a scene describes; their order is that of the value references."""
-    return usable(scene, native_variables(scene) if flavour == "native" else variables(scene))
+    table = native_variables(scene) if flavour == "native" else variables(scene)
+    return with_assumptions(scene, usable(scene, table))
 
 
 def value_text(value: Value) -> str:

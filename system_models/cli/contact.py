@@ -72,6 +72,7 @@ def _run_in(
         introduce(scene, duty, arguments.scene, settings_of(arguments))
     with continued_by_resume(lambda: checkpoint.file if checkpoint.count else None):
         dataset, errors = _simulate(scene, duty, checkpoint, fields)
+        dataset = assumed_values.with_half_widths(dataset, scene)
         code = _report(dataset.assign_attrs(about), errors, scene, duty, folder, fields)
     checkpoint.remove()
     return code

@@ -60,5 +60,6 @@ class Explanation:
     sections: tuple[Section, ...]
     left_out: tuple[Absent, ...]
     trust: tuple[str, ...]  # sentences
+    assumed: tuple[tuple[str, ...], ...]  # head and rows: what is assumed, its interval and its worth
     validity: tuple[tuple[str, str, str], ...]  # quantity, here, meaning
     commands: tuple[tuple[str, str], ...]  # command, what it shows

@@ -46,6 +46,7 @@ def explain(source: str | Path, overrides: Mapping[str, str] | None = None) -> E
         tuple(section for section in sections if section.parts),
         tuple(left_out.of(scene)),
         tuple(trust.sentences(scene)),
+        tuple(trust.assumptions(scene)),
         tuple(trust.validity(scene)),
         tuple(trust.commands(str(source), scene)),
     )

@@ -159,6 +159,7 @@ def _left_out(absent: tuple[Absent, ...], width: int) -> Iterator[str]:
 def _trust(explanation: Explanation, width: int) -> Iterator[str]:
     for sentence in explanation.trust:
         yield from _wrapped(sentence, width, "  ", "  ")
+    yield from _assumed(explanation.assumed, width)
     yield ""
     wide = max(len(quantity) for quantity, _, _ in explanation.validity)
     values = max(len(here) for _, here, _ in explanation.validity)
@@ -169,6 +170,22 @@ def _trust(explanation: Explanation, width: int) -> Iterator[str]:
     for command, text in explanation.commands:
         yield f"  {command}"
         yield f"      {text}"
+
+
+def _assumed(rows: Sequence[tuple[str, ...]], width: int) -> Iterator[str]:
+    """Yield the table of what is assumed; each key and interval on a line of their own where the window is narrow."""
+    if not rows:
+        return
+    yield ""
+    wides = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    split = sum(wides) + 2 * len(wides) > width
+    for key, between, *worth in rows:
+        cells = [cell.ljust(wide) for cell, wide in zip(worth, wides[2:], strict=True)]
+        if split:
+            yield f"  {key}{between and f': {between}'}"
+            yield f"      {'  '.join(cells)}"
+        else:
+            yield "  " + "  ".join([key.ljust(wides[0]), between.ljust(wides[1]), *cells])
 
 
 def _common(explanation: Explanation, width: int) -> Iterator[str]:

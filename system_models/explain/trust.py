@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator
 
+from contact_core.assumed import HEADS, assumed, told
+from contact_core.errors import ContactError
 from contact_core.quantities import UNSOLVED
 from contact_core.scene import Scene
 from fmu_src.package.document.contact import limits
@@ -36,10 +38,19 @@ def sentences(scene: Scene) -> Iterator[str]:
     stated += ["error_damage"] if scene.fatigue.damages else []
     yield (
         f"Every result of this level ({scene.film.name}) states half widths of 95 % intervals: {', '.join(stated)}. "
-        f"{LEVELS[scene.film.name].errors} They are errors of the solution: that of a law, or of a number that is "
-        "assumed, is not in them."
+        f"{LEVELS[scene.film.name].errors} They are errors of the solution: that of a law is not in them, and that of "
+        "a number that is assumed stands beside them, by its interval."
     )
     yield from scene.warnings()
+
+
+def assumptions(scene: Scene) -> list[tuple[str, ...]]:
+    """Return the head and the rows of a table of the scene's intervals and their worth at its operating point."""
+    try:
+        rows = told(scene.intervals, assumed(scene, scene.operation.point))
+    except ContactError:  # the regression level has no answer there
+        return []
+    return [HEADS, *rows] if rows else []
 
 
 def commands(source: str, scene: Scene) -> Iterator[tuple[str, str]]:

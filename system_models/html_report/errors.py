@@ -4,6 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from contact_core.assumed import HEADS, assumed, told
+from contact_core.errors import ContactError
 from contact_core.state import Error
 
 from ..machines.coupling_error import ATTRIBUTE as COUPLING
@@ -41,7 +43,7 @@ def sections(run: Run) -> str:
         "in it; see “What was modelled”."
     )
     if run.of_contact:
-        return section("errors", "Errors by cause", words, *_by_cause(run, ""))
+        return section("errors", "Errors by cause", words, *_by_cause(run, ""), *_assumed(run))
     return section("errors", "Errors by cause", words, *_of_contacts(run), *_of_coupling(run))
 
 
@@ -77,6 +79,22 @@ def _by_cause(run: Run, contact: str) -> Iterator[str]:
     heads = ["output", "at the end", "unit", "relative", *(CAUSES[cause] for cause in used), "shares of the square"]
     yield table(heads, rows, "numbers")
     yield paragraph(_causes_in_words(used), "quiet")
+
+
+def _assumed(run: Run) -> Iterator[str]:
+    """Yield a table of what the scene assumes and what that is worth at its own operating point."""
+    if run.scene is None or not run.scene.intervals:
+        return
+    try:
+        rows = told(run.scene.intervals, assumed(run.scene, run.scene.operation.point))
+    except ContactError:  # the regression level has no answer there
+        return
+    yield heading("Beside them: what the scene assumes")
+    yield paragraph(
+        "Each value may lie anywhere between the two that are given. What that makes of friction, film, load on the "
+        "solids and wear rate at the scene's own operating point, on new surfaces, by the regression level."
+    )
+    yield table(list(HEADS), [list(row) for row in rows], "numbers")
 
 
 _MEANING = {

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from ..store.results import half_width
+from ..store.results import ASSUMED, half_width
 from .half_widths import cell
 
 if TYPE_CHECKING:
@@ -115,7 +115,11 @@ def _stated(dataset: xr.Dataset, name: str, rows: list[int], factor: float, digi
     if half is None:
         return [f"{value:.{digits}f}" for value in values]
     halves = factor * half[rows]
-    return [cell(name, value, half, digits) for value, half in zip(values, halves, strict=True)]
+    texts = [cell(name, value, half, digits) for value, half in zip(values, halves, strict=True)]
+    worth = dataset.coords.get(f"{name}{ASSUMED}")
+    if worth is None:
+        return texts
+    return [f"{text} ({factor * each:.2g})" for text, each in zip(texts, worth.values[rows], strict=True)]
 
 
 def _apart(minutes: np.ndarray) -> list[str]:

@@ -21,6 +21,7 @@ from .duty import Duty
 
 _MOST_POINTS = 200  # of a duty that are looked at
 _MIXED, _FULL = 1.0, 3.0  # lambda of handbooks, from which on lubrication is called mixed, and full film
+_DECIDES = 2.0  # lambda below which roughness below the grid decides on friction
 _FEW = 8.0  # nodes across the contact, below which RangeFlag.FEW_NODES is raised
 _WIDE, _WAVES = 5.0, 8.0  # half widths of the contact and correlation lengths, that a domain should have
 _MISSING, _LEFT = 0.06, 0.02  # of the film: missing from which on a line says so, and left by its way out
@@ -40,7 +41,7 @@ def before(scene: Scene, duty: Duty) -> list[str]:
     cases = [Case.bind(scene, op) for op in _some(duty.points) if op.load > 0.0]
     if not cases:
         return ["Contact: no load, the bodies just touch."]
-    return wrapped(*described(cases), *_grid(scene, cases), *_inlet(scene, cases))
+    return wrapped(*described(cases), *_grid(scene, cases), *_inlet(scene, cases), *_below_the_grid(scene, cases))
 
 
 def described(cases: Sequence[Case]) -> list[str]:
@@ -135,6 +136,24 @@ def _flooded(cases: Sequence[Case]) -> float:
     return 2.0 * max(halves, default=0.0)
 
 
+def _below_the_grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
+    """Return a line on roughness below the grid that a scene does not give, and what that is worth, where it counts."""
+    bare = [f"surface_{i}" for i, s in enumerate((scene.surface_1, scene.surface_2), 1) if _lacks_layer(s)]
+    rough = math.hypot(*(side.surface.rms for side in cases[0].sides))
+    thinnest = min(cases, key=lambda case: case.conventional_film)
+    if not bare or scene.film.lumped or thinnest.conventional_film >= _DECIDES * rough:
+        return []
+    give = "give" if len(bare) > 1 else "gives"
+    return [
+        f"Roughness: {' and '.join(bare)} {give} none below the grid, on which solid contact depends at this lambda: "
+        f"{assumed.of_microroughness(thinnest, bare)}Take finish = 'ground', 'polished', ... or microroughness."
+    ]
+
+
+def _lacks_layer(surface: Any) -> bool:
+    return surface.microroughness is None and not surface.smooth
+
+
 def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
     """Return a line on a grid that is too coarse for the contact, with the way out."""
     least, most = (f(case.hertz.a for case in cases) for f in (min, max))
@@ -151,7 +170,7 @@ def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
     return [f"Grid: {nodes:.1f} nodes across the contact; below {_FEW:g} the film is one of the grid. Take {finer}."]
 
 
-def legend(halves: str = "error (95 %)") -> list[str]:
+def legend(halves: str = "error (95 %), and in brackets the half width by what is assumed") -> list[str]:
     """Return what the columns of the table are; halves: what stands behind +-."""
     columns = "; ".join(f"{heading}: {meaning}" for heading, meaning in _LEGEND.items())
     return wrapped(f"Columns: {columns}; +-: {halves}.")
@@ -163,7 +182,8 @@ def after(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> lis
     `errors` are those of the last state by `contact_core.uncertainty`; empty if that is not known.
     """
     known = verdict.sentence(scene, dataset, errors)
-    return wrapped(*flags.sentences(scene, dataset), known, *assumed.not_in_errors(dataset.attrs))
+    worth = assumed.sentence(scene, dataset)
+    return wrapped(*flags.sentences(scene, dataset), known, *worth, *assumed.not_in_errors(dataset.attrs))
 
 
 def width() -> int:

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from contact_core.quantities import ABSOLUTE, STATED
 
 ERROR = "_error"  # after the name of an output: the half width of its error
+ASSUMED = "_assumed"  # after the name of an output: its half width by what the scene assumes
 NAME = "name_in_full"  # attribute of a variable in a file whose name netCDF cannot take
 BAND = "_band"  # after the name of an output of an ensemble: the half width of its mean by the scatter of the members
 

@@ -5,16 +5,17 @@
     optical_films   measured: central films from 5 mm/s to 4 m/s
     dimple          measured: a dimple that crosses a contact
     oils            measured: viscosities of the named oils
+    base_oils       measured: pressure coefficients by two viscosities and a family
+    traction        measured: friction of full films
+    asperity_load   published numerical: share of the load on the solids
     rolling_torques measured: friction torques of bearings that roll
-    zddp_films      measured: tribofilms and friction of ZDDP
     film_formulas   published numerical: films of points and lines
     starvation      published numerical: films of too little oil
     dry_contact     closed form: Hertz's contact
     stresses        closed form: largest shear below it
     flash           closed form: heat sources that move
-    tribofilm       closed form: growth of a tribofilm that is always rubbed
     thesis          thesis: two hours of the shipped cases
-    tables          the measurements in `data/`, with their licences
+    tables          the tables in `data/`, with their licences
     terminal        outcomes as text
     page, picture   outcomes as a web page of one file, with its pictures
 

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from contact_core.errors import ContactError
 
 from . import (
+    asperity_load,
+    base_oils,
     dimple,
     dry_contact,
     film_formulas,
@@ -16,8 +18,7 @@ from . import (
     starvation,
     stresses,
     thesis,
-    tribofilm,
-    zddp_films,
+    traction,
 )
 from .model import Comparison, Outcome
 
@@ -25,14 +26,15 @@ COMPARISONS: dict[str, Comparison] = {
     "optical_films": optical_films.COMPARISON,
     "dimple": dimple.COMPARISON,
     "oils": oils.COMPARISON,
+    "base_oils": base_oils.COMPARISON,
+    "traction": traction.COMPARISON,
+    "asperity_load": asperity_load.COMPARISON,
     "rolling_torques": rolling_torques.COMPARISON,
-    "zddp_films": zddp_films.COMPARISON,
     "film_formulas": film_formulas.COMPARISON,
     "starvation": starvation.COMPARISON,
     "dry_contact": dry_contact.COMPARISON,
     "stresses": stresses.COMPARISON,
     "flash": flash.COMPARISON,
-    "tribofilm": tribofilm.COMPARISON,
     "thesis": thesis.COMPARISON,
 }
 

@@ -12,6 +12,8 @@ from fmpy.validation import validate_fmu
 from fmu_host import SHAPES
 
 from contact_core import Scene
+from contact_core.assumed import assumed
+from contact_core.assumed import text as words
 from contact_core.quantities import INPUTS, OF_CALLER, OUTPUTS
 from contact_core.scene import tunables
 from contact_core.state import Outputs
@@ -44,7 +46,8 @@ def test_every_quantity_is_a_variable_with_its_unit_and_nominal(by_name):
     for q in (*INPUTS, *OUTPUTS):
         variable = by_name[q.name]
         assert variable.causality == ("input" if q.role == "input" else "output")
-        assert (variable.type, variable.description) == (q.kind, q.text)
+        assert variable.type == q.kind
+        assert variable.description.partition("; by what the scene assumes")[0] == q.text
         if q.kind == "Real":
             assert (variable.unit, float(variable.nominal)) == (q.unit, q.nominal)
             assert variable.displayUnit == (q.display or None)
@@ -253,8 +256,8 @@ def test_the_same_scene_of_other_versions_has_another_guid_and_script(scene, mon
 def test_the_documentation_names_laws_variables_and_flags(fmu_file):
     with zipfile.ZipFile(fmu_file) as archive:
         page = archive.read("documentation/index.html").decode()
-    for text in ("lubricant.viscosity: roelands", "friction_coefficient", "wear.bare", "range_flags is"):
-        assert text in page
+    for part in ("lubricant.viscosity: roelands", "friction_coefficient", "wear.bare", "range_flags is"):
+        assert part in page
 
 
 # what means nothing to a shape is absent, not zero
@@ -281,3 +284,12 @@ def test_the_fmu_of_a_line_is_described_whole(line_file, line_scene):
     assert float(by_name["geometry.face_width"].start) == line_scene.geometry.face_width
     assert float(by_name["load"].start) == line_scene.operation.load
     assert by_name["load"].unit == "N"
+
+
+def test_outputs_say_what_the_assumptions_of_the_scene_are_worth(by_name, scene):
+    worth = assumed(scene, scene.operation.point)
+    for name, each in worth.items():
+        for output in {name, f"{name}_1"} & set(by_name):
+            said = f"by what the scene assumes +- {words(name, each.together)} at its own operating point"
+            assert by_name[output].description.endswith(said)
+    assert "assumes" not in by_name["lambda_ratio"].description

@@ -60,7 +60,7 @@ def test_the_film_by_hand_in_the_units_of_the_standard():
     working = type_c(10)
     found = micropitting.films(working)
     bulk, contact = found.bulk, float(found.temperature[0])
-    own = 18.77e-9 * (OIL(0.0, 311.0) / OIL(0.0, 313.15)) ** 0.139  # of mineral oils: rises with viscosity, Gold et al.
+    own = 1.0 / (32.77918e6 + 0.29862e6 * 37.85)  # FVA 3 at 311 K, Wingertszahn et al. 2023
 
     def alpha(t):
         return own * (1.0 + 516.0 * (1.0 / t - 1.0 / 311.0))
@@ -74,10 +74,10 @@ def test_the_film_by_hand_in_the_units_of_the_standard():
     assert found.least == approx(found.film[0] / 0.5e-6)  # A is where it is thinnest
 
 
-def test_the_pressure_coefficient_of_the_oil_is_as_the_standard_estimates_it_for_mineral_oils():
-    """AGMA 925-A03: 0.010471 eta^0.1348 mm2/N, eta in mPa s."""
+def test_the_measured_pressure_coefficient_of_the_oil_is_a_sixth_above_the_estimate_for_mineral_oils():
+    """AGMA 925-A03: 0.010471 eta^0.1348 mm2/N, eta in mPa s; as Gold's, it is a secant."""
     found = micropitting.pressure_coefficient(OIL, np.array([311.0]))[0]
-    assert 1e6 * found == approx(0.010471 * (1e3 * OIL(0.0, 311.0)) ** 0.1348, rel=0.05)
+    assert 1e6 * found == approx(1.17 * 0.010471 * (1e3 * OIL(0.0, 311.0)) ** 0.1348, rel=0.05)
 
 
 def test_without_friction_films_follow_speed_and_load_by_their_powers_and_nothing_is_warmed():
@@ -158,10 +158,10 @@ def test_the_torques_of_the_test_are_those_of_its_formula():
 
 
 def test_the_scuffing_temperature_by_hand():
-    """Stage 10, 12.36 mPa s: 80 + 2.25 12.36^-0.05 100 degC; nitrided steel, 80 + 2.95 ..."""
-    assert scuffing.scuffing_temperature(type_a(5)) - 273.15 == approx(80.0 + 225.0 * 12.36**-0.05, rel=1e-3)
+    """Stage 10, 12.85 mPa s: 80 + 2.25 12.85^-0.05 100 degC; nitrided steel, 80 + 2.95 ..."""
+    assert scuffing.scuffing_temperature(type_a(5)) - 273.15 == approx(80.0 + 225.0 * 12.85**-0.05, rel=1e-3)
     nitrided = type_a(5, rating=Rating(scuffing_stage=10, structural_factor=1.5))
-    assert scuffing.scuffing_temperature(nitrided) - 273.15 == approx(80.0 + 295.0 * 12.36**-0.05, rel=1e-3)
+    assert scuffing.scuffing_temperature(nitrided) - 273.15 == approx(80.0 + 295.0 * 12.85**-0.05, rel=1e-3)
 
 
 @pytest.mark.parametrize("stage", [5, 7, 9, 11])

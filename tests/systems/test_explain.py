@@ -57,7 +57,7 @@ def named(explanation):
 @pytest.mark.parametrize(("name", "settings"), CASES)
 def test_every_value_and_every_law_of_a_scene_is_told(name, settings):
     scene, explanation = Scene.from_toml(name, settings), explain(name, settings)
-    assert set(flat(scene.to_dict())) - {"name", "description"} <= named(explanation)
+    assert set(flat(scene.to_dict())) - {"name", "description", "intervals"} <= named(explanation)
     parts = {part.path: part for section in explanation.sections for part in section.parts}
     absent = {absent.key for absent in explanation.left_out}
     for law in in_use(scene):
@@ -148,7 +148,7 @@ def test_comments_are_read_as_toml_has_them():
 
 def test_sections_hold_every_table_of_a_scene():
     tables = [table for _, tables in SECTIONS for table in tables]
-    assert sorted(tables) == sorted({f.name for f in fields(SceneFields)} - {"name", "description"})
+    assert sorted(tables) == sorted({f.name for f in fields(SceneFields)} - {"name", "description", "intervals"})
 
 
 def test_options_that_are_told_as_left_out_exist():

@@ -92,7 +92,7 @@ def test_what_is_foreseen_is_what_the_run_settles_to(ran: tuple[Assembly, xr.Dat
     speed, torque = (float(dataset[f"shafts.{name}"].values[-1]) for name in ("speed_1", "mesh_torque"))
     found = KINDS["gear_pair"].foreseen(assembly.parts, {"speed": speed, "torque": torque})
     for name in assembly.contacts:
-        assert found[name][output] == approx(float(dataset[f"{name}.{output}"].values[-1]), rel=1e-4), name
+        assert found[name][output] == approx(float(dataset[f"{name}.{output}"].values[-1]), rel=5e-4), name
 
 
 def test_flags_name_contacts_rows_quantity_and_limit(ran: tuple[Assembly, xr.Dataset]) -> None:

@@ -25,7 +25,7 @@ def test_a_new_scene_runs_at_once_and_says_what_it_assumes(capsys: pytest.Captur
     out, err = capsys.readouterr()
     assert out.startswith("mine: 50 N, 1.1 m/s, 0.9 m/s, 60 degC\nContact: Hertz pressure 1.09 GPa")
     (said,) = [line for line in err.splitlines() if line.startswith("tribofmu: note: assumed: ")]
-    assert "lubricant.viscosity.pressure_coefficient 16.9 GPa^-1" in said
+    assert "lubricant.viscosity.pressure_coefficient 19.93 GPa^-1" in said
     result = results.read(Path("results/mine/result.nc"))
     assert result["valid"].all()
     assert 100e-9 < float(result["h_c"][0]) < 200e-9

@@ -89,7 +89,7 @@ def test_a_missing_face_width_is_named_with_its_meaning():
 
 def test_a_roller_without_a_profile_is_told_the_choices():
     sentence = refusal("mtm_zddp", geometry__model="roller", geometry__face_width="2 mm")
-    assert "'geometry.profile' is missing. Add the table, with a 'model': rounded, logarithmic." in sentence
+    assert "'geometry.profile' is missing. Add the table, with a 'model': rounded, logarithmic, measured." in sentence
 
 
 def test_an_unknown_geometry_or_profile_is_refused_with_the_one_that_was_meant():

@@ -61,15 +61,19 @@ def test_smooth_bodies_have_the_film_of_lines_and_the_oils_friction_under_hertzs
     assert found.approach == approx(hertz.approach - found.h_c, rel=1e-12)
 
 
-def test_the_mean_over_a_strip_is_that_of_many_nodes():
+@pytest.mark.parametrize("fall", [0.0, 0.02])
+def test_the_mean_over_a_strip_is_that_of_many_nodes(fall):
     scene, _, op = cheap(LINE)
+    rheology = replace(scene.lubricant.rheology, limiting_fall=fall)
+    scene = replace(scene, lubricant=replace(scene.lubricant, rheology=rheology))
     pressures, rates, grips = np.array([2e8, 9e8]), np.array([1e3, 1e6]), np.array([1.0, 0.3])
     strip, ellipse = hertz_line(LOAD, 0.01, FACE, 230e9), hertz_point(LOAD, 0.01, 0.02, 230e9)
-    warm = np.full(2, op.temperature)
+    warm = op.temperature + np.array([0.0, 40.0])
+    left = np.exp(-fall * (warm - 313.15))
     part = (np.arange(50_000) + 0.5) / 50_000
     for hertz, weight in ((strip, np.ones_like(part)), (ellipse, 2.0 * part)):
         local = np.sqrt(1.0 - part[:, None] ** 2) * pressures
-        shear = scene.lubricant.rheology(scene.lubricant.viscosity(local, warm) * rates, local * grips)
+        shear = scene.lubricant.rheology(scene.lubricant.viscosity(local, warm) * rates, local * grips * left)
         assert oil_shear(scene, hertz, pressures, rates, grips, warm) == approx(
             (weight[:, None] * shear).mean(axis=0), rel=1e-2
         )

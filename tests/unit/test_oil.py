@@ -284,3 +284,35 @@ def test_the_formula_film_of_warm_bodies_is_that_of_the_oil_they_draw_in():
     _, told = advance(scene, warm, state, 0.0)
     _, same = advance(scene, replace(point, temperature=point.temperature + 40.0), state, 0.0)
     assert told.lambda_conventional == approx(same.lambda_conventional, rel=1e-12)
+
+
+RISE = {"lubricant.conductivity_rise": "1.72 GPa^-1", "lubricant.conductivity_bend": "0.54 GPa^-1"}
+
+
+def test_oil_conducts_better_under_pressure():
+    oil, _ = smooth(RISE)
+    found = oil.lubricant.conductivity_under(np.array([0.0, 1e9]))
+    assert found == approx([0.14, 0.14 * (1.0 + 1.72 / 1.54)], rel=1e-12)
+    assert smooth({})[0].lubricant.conductivity_under(np.array([1e9])) == 0.14
+
+
+def test_friction_of_the_regression_level_is_that_of_the_conductivity_at_the_mean_pressure():
+    hot = {"heat.model": "field"}
+    rising, state = smooth(hot | RISE)
+    op = sliding(rising, 6.0, 1.0)
+    rising = rising.at_level("regression")
+    mean = rising.hertz(op.load)
+    under = rising.lubricant.conductivity_under(mean.mean_share * mean.pressure_max)
+    even = smooth(hot | {"lubricant.conductivity": f"{under} W/(m K)"})[0].at_level("regression")
+    plain = smooth(hot)[0].at_level("regression")
+    found, same, less = (advance(scene, op, state, 0.0)[1].friction_coefficient for scene in (rising, even, plain))
+    assert found == approx(same, rel=0.01)  # a thick film carries its load at a little less than Hertz's pressure
+    assert abs(found) > 1.01 * abs(less)
+
+
+def test_the_heat_of_a_solved_film_leaves_by_the_conductivity_under_its_pressure():
+    rising, state = smooth({"heat.model": "field"} | RISE)
+    plain, _ = smooth({"heat.model": "field"})
+    op = sliding(rising, 6.0, 1.0)
+    cool, warm = (solve(scene, op, state).temperatures.film.max() for scene in (rising, plain))
+    assert cool < warm - 1.0

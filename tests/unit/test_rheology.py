@@ -108,3 +108,26 @@ def test_a_carreau_film_of_exponent_one_is_newtonian():
 
 def test_a_fast_eyring_film_shears_exponentially_with_stress():
     assert Eyring(5e6).ease(np.array([50e6]))[0] == approx(np.sinh(10.0) / 10.0, rel=1e-14)
+
+
+@by_name
+def test_a_warm_oil_slips_at_less_stress_than_one_of_40_degrees(law):
+    law = replace(law, limiting_coefficient=LIMIT)
+    assert law.limiting_left(373.15) == 1.0
+    falling = replace(law, limiting_fall=0.0055)
+    assert falling.limiting_left(313.15) == 1.0
+    warm = np.array([293.15, 353.15, 393.15])
+    assert falling.limiting_left(warm) == approx(np.exp(-0.0055 * (warm - 313.15)), rel=1e-14)
+    stress = falling(np.full(3, 1e200), 1e9 * falling.limiting_left(warm))
+    assert stress == approx(LIMIT * 1e9 * falling.limiting_left(warm), rel=1e-14)
+
+
+# tau_L [MPa] of mineral oils in disc machines at a mean pressure [GPa] and a temperature [degC]: Dyson 1970
+DISCS = [(0.79, 40, 43.1), (0.79, 70, 31.4), (1.1, 40, 69.8), (1.1, 70, 53.6), (1.1, 100, 42.1)]
+
+
+@pytest.mark.parametrize(("pressure", "celsius", "measured"), DISCS)
+def test_the_limit_recommended_for_mineral_oils_bounds_what_discs_measure(pressure, celsius, measured):
+    law = Newtonian(0.061, 0.0055)
+    limit = law(np.array([1e20]), np.array([1e9 * pressure * law.limiting_left(celsius + 273.15)]))[0]
+    assert 0.95 < limit / (1e6 * measured) < 1.5  # an Eyring oil stays below it where pressure is low

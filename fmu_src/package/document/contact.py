@@ -5,6 +5,8 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from contact_core.assumed import HEADS, assumed, told
+from contact_core.errors import ContactError
 from contact_core.scene import Scene, SelfAffine, Surface
 
 from ...flavours import Flavour
@@ -182,6 +184,24 @@ def errors(scene: Scene) -> Iterator[str]:
     yield paragraph("Measured errors, and the command of the repository that measures them:")
     for found in measured.ERRORS[_MEASURED.get(scene.film.name, scene.film.name)]:
         yield _measured(found)
+
+
+def assumptions(scene: Scene) -> Iterator[str]:
+    """Yield the section on what the scene assumes."""
+    yield paragraph(
+        "Values that the scene assumes, the interval of each, and the half widths that these make of friction, film, "
+        "load on the solids and wear rate at the reference operating point, on new surfaces, by the regression level. "
+        "They come beside the errors above."
+    )
+    try:
+        rows = told(scene.intervals, assumed(scene, scene.operation.point))
+    except ContactError as error:
+        yield paragraph(str(error))
+        return
+    if rows:
+        yield table(HEADS, rows)
+    else:
+        yield paragraph("The scene has no intervals.")
 
 
 def _measured(found: measured.Table) -> str:

@@ -47,6 +47,7 @@ def documentation(scene: Scene, flavour: Flavour, reference: bool, fmi: Version 
         "equations": ("Equations", formulas.equations(scene)),
         "validity": ("Range of validity", contact.validity(scene)),
         "errors": ("Errors of the outputs", contact.errors(scene)),
+        "assumed": ("What is assumed, and what it is worth", contact.assumptions(scene)),
         "steps": ("Steps", contact.steps(scene)),
         "status": ("Status, <code>valid</code> and <code>range_flags</code>", interface.status(flavour, fmi)),
         "variables": ("Variables", interface.variable_tables(scene, flavour)),

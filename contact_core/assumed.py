@@ -1,0 +1,101 @@
+"""What the assumptions of a scene are worth: half widths of its answers by the intervals of what it assumes.
+
+Each interval's ends go through the regression level, on new surfaces at an operating point, one by one; the larger
+change of an answer is the half width by that assumption, and they add as if they were independent. They are not in the
+errors of `uncertainty`, which are those of solving the scene as it is.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+from . import regression
+from .errors import ContactError
+from .film import Regression
+from .scene import Case, OperatingPoint, Scene
+from .scene.intervals import Interval, applicable, replaced
+from .state import initial_state
+
+WEAR = "wear_depth"  # of both bodies together: their wear rate now
+OUTPUTS = ("friction_coefficient", "h_c", "contact_load_ratio", WEAR)
+HEADS = ("assumed", "between", "friction", "h_c", "W_c", "wear rate")
+_FILM = "h_c"
+# half widths that are told: of friction and shares, of films [m], of wear relative
+LEAST = {"friction_coefficient": 1e-4, _FILM: 1e-10, "contact_load_ratio": 1e-3, WEAR: 1e-3}
+_UNKNOWN = 1e3  # relative, of wear where nothing touches but may
+
+
+class Assumption(NamedTuple):
+    """Half width of an answer by what a scene assumes: in the unit of the answer, of wear relative."""
+
+    parts: Mapping[str, float]  # by the dotted key of what is assumed, the largest first
+
+    @property
+    def together(self) -> float:
+        """Half width by all assumptions."""
+        return math.hypot(*self.parts.values())
+
+
+@lru_cache(maxsize=64)
+def assumed(scene: Scene, op: OperatingPoint) -> Mapping[str, Assumption]:
+    """Return what the intervals of a scene are worth in each of `OUTPUTS` at an operating point.
+
+    Raises ContactError if the regression level has no answer there. An end of an interval at which it has none counts
+    for nothing.
+    """
+    case = Case.bind(scene.at_level(Regression.name), op)
+    here = _answers(case)
+    parts: dict[str, dict[str, float]] = {name: {} for name in OUTPUTS}
+    for interval in applicable(scene):
+        ends = [_answers_at(case, interval.key, end) for end in interval.ends(scene)]
+        for name in OUTPUTS:
+            half = max((_change(name, here[name], end[name]) for end in ends if end), default=0.0)
+            if half > 0.0:
+                parts[name][interval.key] = half
+    return {name: Assumption(dict(sorted(each.items(), key=lambda x: -x[1]))) for name, each in parts.items()}
+
+
+def told(intervals: Sequence[Interval], worth: Mapping[str, Assumption]) -> list[tuple[str, ...]]:
+    """Return rows for tables, headed by `HEADS`: each interval and its worth, the largest in friction first."""
+    ranked = sorted(intervals, key=lambda each: -worth[OUTPUTS[0]].parts.get(each.key, 0.0))
+    rows = [
+        (
+            each.key,
+            f"{each.least} to {each.most}",
+            *(text(name, worth[name].parts.get(each.key, 0.0)) for name in OUTPUTS),
+        )
+        for each in ranked
+    ]
+    return [*rows, ("together", "", *(text(name, worth[name].together) for name in OUTPUTS))] if rows else []
+
+
+def text(output: str, half: float) -> str:
+    """Return a half width as text, in words if it is a factor."""
+    if half < LEAST[output]:
+        return "-"
+    if output == _FILM:
+        return f"{1e9 * half:.2g} nm"
+    if output != WEAR:
+        return f"{half:.2g}"
+    return f"{100.0 * half:.2g} %" if half < 1.0 else f"a factor of {1.0 + half:.2g}"
+
+
+def _answers_at(case: Case, key: str, value: float) -> dict[str, float] | None:
+    try:
+        return _answers(Case.bind(replaced(case.scene, key, value), case.op))
+    except ContactError:
+        return None
+
+
+def _answers(case: Case) -> dict[str, float]:
+    outputs = regression.advance(case, initial_state(case.scene), 0.0)[1]
+    wear = outputs.wear_rate_1 + outputs.wear_rate_2
+    return {name: wear if name == WEAR else float(getattr(outputs, name)) for name in OUTPUTS}
+
+
+def _change(name: str, here: float, there: float) -> float:
+    change = abs(there - here)
+    if name != WEAR or change == 0.0:
+        return change
+    return min(change / here, _UNKNOWN) if here > 0.0 else _UNKNOWN

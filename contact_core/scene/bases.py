@@ -1,0 +1,97 @@
+"""Families of base oils: pressure coefficient and its law, and shear stresses, by two viscosities and a family.
+
+The numbers are those of data/bases.toml.
+"""
+
+import math
+import tomllib
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from importlib.resources import files
+from typing import Any
+
+from ..errors import SceneError
+from ..laws.viscosity import AstmD341
+from .toml import did_you_mean
+
+USUAL = "mineral"
+# Gold's coefficient over measured secants from 0 to 0.2 GPa: 19 points of FVA 3, FVA 3A, M100 and PAO100, +-0.037
+_OF_SECANT, _SECANT_TO = 0.956, 0.2  # [1], [GPa]
+# K: of the limiting coefficient; amid the temperatures of use; of the Eyring stress
+_COLD, _WARM, _HOT = 313.15, 343.15, 353.15
+# of mineral oils whose viscosity falls faster with temperature than paraffinic ones': fitted to N100 and eight oils of
+# medium viscosity index of Stachowiak & Batchelor, Engineering Tribology, table 2.3, within 15 %
+_PARAFFINIC, _RISE, _NAPHTHENIC = 1.25, 1.9, 1.3
+_ROELANDS = 138.0  # K, of his slope index
+
+
+@dataclass(frozen=True)
+class Base:
+    """A family of base oils."""
+
+    source: str
+    gold: float  # pressure coefficient of an oil of 1 mm2/s [1/GPa]
+    gold_exponent: float
+    bend_40: float
+    bend_100: float
+    interval: float  # relative half width of the pressure coefficient
+    limiting_coefficient: float
+    limiting_interval: tuple[float, float]
+    conductivity: float  # [W/(m K)]
+    conductivity_interval: tuple[float, float]
+    limiting_fall: float  # of the limiting coefficient with temperature [1/K]
+    limiting_fall_interval: tuple[float, float]
+    conductivity_rise: float  # with pressure [1/GPa]
+    conductivity_bend: float  # [1/GPa]
+
+    def oil(self, sheet: AstmD341) -> AstmD341:
+        """Return the oil of a data sheet with this family's pressure coefficient and bends.
+
+        Gold's coefficient is taken for the secant of ln(viscosity) from 0 to 0.2 GPa at 70 degC, from which the
+        modulus equation gives the slope at p = 0. Mineral oils that thin faster with heat have up to
+        1.3 times as much, and less bend.
+        """
+        warm = float(sheet(0.0, _WARM)) / float(sheet.density_at(_WARM))
+        more = self._naphthenic(sheet)
+        straight = 1.0 - (more - 1.0) / (_NAPHTHENIC - 1.0)
+        bent = replace(sheet, bend_40=straight * self.bend_40, bend_100=straight * self.bend_100)
+        secant = more * self.gold * (1e6 * warm) ** self.gold_exponent / _OF_SECANT
+        slope = 1.0 / (1.0 / secant - 0.5 * (bent.bend_40 + bent.bend_100) * _SECANT_TO)
+        reference = sheet.log_viscosity(sheet.reference_temperature) / sheet.log_viscosity(_WARM)
+        return replace(bent, pressure_coefficient=1e-9 * slope * float(reference))
+
+    def eyring_stress(self, oil: AstmD341) -> float:
+        """Return the Eyring stress [Pa] of an oil: 2 limiting coefficients over its secant to 1 GPa, both at 80 degC.
+
+        Bair & Winer, J. Tribol. 112 (1990) 245, with the coefficient under pressure as Arana, Larranaga & Ulacia 2019,
+        doi:10.1177/1350650118778655, equation 13, have it.
+        """
+        secant = 1e-9 * math.log(float(oil(1e9, _HOT)) / float(oil(0.0, _HOT)))
+        return 2.0 * self.limiting_coefficient * math.exp(-self.limiting_fall * (_HOT - _COLD)) / secant
+
+    def _naphthenic(self, sheet: AstmD341) -> float:
+        """Return by what the coefficient is more than Gold's, by Roelands' slope index of the viscosity."""
+        if self is not _bases()[USUAL]:
+            return 1.0
+        hot = 373.15
+        fall = float(sheet.log_viscosity(_COLD) / sheet.log_viscosity(hot))
+        slope_index = math.log(fall) / math.log((hot - _ROELANDS) / (_COLD - _ROELANDS))
+        return min(max(1.0 + _RISE * (slope_index - _PARAFFINIC), 1.0), _NAPHTHENIC)
+
+
+@lru_cache(maxsize=1)
+def _bases() -> dict[str, Base]:
+    text = (files("contact_core") / "data" / "bases.toml").read_text("utf-8")
+    tables: dict[str, dict[str, Any]] = tomllib.loads(text)
+    return {name: Base(**values) for name, values in tables.items()}
+
+
+def base_of(name: Any) -> Base:
+    """Return a family of base oils by name, in capitals or not. Raises SceneError for an unknown one."""
+    known = _bases()
+    if str(name).lower() not in known:
+        raise SceneError(
+            f"lubricant.base = {name!r} is no family of base oils.{did_you_mean(str(name), list(known))} Known are "
+            f"{', '.join(known)}."
+        )
+    return known[str(name).lower()]

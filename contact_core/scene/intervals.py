@@ -1,0 +1,125 @@
+"""What a scene assumes, and between which values it may lie.
+
+    [intervals]
+    "surface_1.correlation_length" = ["4 um", "16 um"]
+    "boundary_friction.bare" = ["-20 %", "+15 %"]  # of the scene's own value
+
+Named sets and defaults bring their own; a value that is set beside them has none unless its scene gives one. What the
+intervals are worth in friction, film and wear: `contact_core.worth`.
+"""
+
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Any
+
+from ..errors import SceneError
+from ..laws.asperity_layer import AsperityLayer
+from .toml import file_of_set, flat, models_of, read_table
+from .units import parse
+
+Ends = tuple[Any, Any]  # least and largest value, as in a scene
+_LONGEST = 4e-6  # m: of waves below the grid where a scene has none
+
+
+@dataclass(frozen=True)
+class Interval:
+    """The least and the largest value of what a scene assumes, as text with a unit or as a percentage of its value."""
+
+    key: str  # dotted
+    least: str
+    most: str
+
+    def ends(self, scene: Any) -> tuple[float, float]:
+        """Return least and largest value in SI for a scene. Raises SceneError if they cannot be."""
+        value, unit = value_of(scene, self.key)
+        least, most = (_end(text, value, unit, self.name) for text in (self.least, self.most))
+        if least > most:
+            raise SceneError(f"{self.name} = ['{self.least}', '{self.most}']: the least comes first. Exchange them.")
+        return least, most
+
+    @property
+    def name(self) -> str:
+        """What the interval is called in a scene."""
+        return f'intervals."{self.key}"'
+
+
+def listed(intervals: Mapping[str, Ends]) -> list[dict[str, str]]:
+    """Return tables of intervals, as records are built from. Raises SceneError for what is none."""
+    return [_table(key, ends) for key, ends in intervals.items()]
+
+
+def _table(key: str, ends: Any) -> dict[str, str]:
+    if not isinstance(ends, list | tuple) or len(ends) != 2:
+        raise SceneError(f"intervals.\"{key}\" = {ends!r} must be the least and the largest value, ['4 um', '16 um'].")
+    return {"key": key, "least": str(ends[0]), "most": str(ends[1])}
+
+
+def of_sets(table: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, Ends]]:
+    """Yield the intervals of the named sets that a scene's tables take, but of values that stand beside them."""
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            yield from of_sets(value, f"{path}.{key}" if path else key)
+        elif key == "set":
+            with suppress(SceneError):  # reading the set will refuse it
+                yield from _of_set(str(value), path, flat(table, f"{path}."))
+
+
+def _of_set(chosen: str, path: str, beside: Mapping[str, Any]) -> Iterator[tuple[str, Ends]]:
+    file, name = file_of_set(chosen, path)
+    sets = {key.lower(): value for key, value in read_table(file, "set").items() if isinstance(value, Mapping)}
+    for key, ends in sets.get(name, {}).get("intervals", {}).items():
+        if key.startswith(f"{path}.") and key not in beside:
+            yield key, ends
+
+
+def applicable(scene: Any) -> tuple[Interval, ...]:
+    """Return the intervals of a scene but for those of laws that others have taken the place of."""
+    return tuple(each for each in scene.intervals if not _of_another_law(scene, each.key))
+
+
+def _of_another_law(scene: Any, key: str) -> bool:
+    path, _, name = key.rpartition(".")
+    record = scene
+    for part in path.split("."):
+        record = getattr(record, part, None)
+    others = {f.name for law in models_of(path) for f in fields(law)}
+    return name in others and record is not None and not hasattr(record, name)
+
+
+def errors(scene: Any) -> Iterator[str]:
+    """Yield sentences on intervals that cannot be."""
+    for interval in applicable(scene):
+        try:
+            interval.ends(scene)
+        except SceneError as error:
+            yield str(error)
+
+
+def replaced(scene: Any, key: str, value: float) -> Any:
+    """Return a scene, or a record of it, with another value [SI] of a dotted key, unchecked."""
+    name, _, rest = key.partition(".")
+    return replace(scene, **{name: replaced(_part(scene, name), rest, value) if rest else value})
+
+
+def _part(record: Any, name: str) -> Any:
+    part = getattr(record, name, None)
+    return AsperityLayer(0.0, _LONGEST) if part is None and name == "microroughness" else part
+
+
+def value_of(record: Any, key: str) -> tuple[float, str]:
+    """Return the value [SI] of a dotted key and its unit."""
+    *path, last = key.split(".")
+    for name in path:
+        record = _part(record, name)
+    field = next((f for f in fields(record) if f.name == last), None) if is_dataclass(record) else None
+    value = getattr(record, last, None)
+    if field is None or not isinstance(value, float):
+        raise SceneError(f'intervals."{key}" is no number of this scene. `tribofmu explain` lists them by their keys.')
+    return value, field.metadata["unit"]
+
+
+def _end(text: str, value: float, unit: str, name: str) -> float:
+    if text.rstrip().endswith("%"):
+        return value * (1.0 + 0.01 * parse(text.rstrip()[:-1].strip(), "", name))
+    return parse(text, unit, name)

@@ -1,0 +1,185 @@
+"""Share of the load on the solids over lambda: solved contacts beside published fits of rigid roughness."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy
+
+from contact_core import OperatingPoint, Outputs, Scene, advance, initial_state
+from contact_core.laws.asperity_layer import ELASTIC_HEIGHT, PLASTIC_HEIGHT
+from contact_core.scene import Case
+
+from .model import Cause, Comparison, Curve, Kind, Outcome, Row
+from .tables import read
+
+PAGE = "docs/measured/surfaces/asperity_load_share.md"
+LEFT_OUT = "mk_caseB"  # its formula was written down from memory, for one contact
+LAMBDAS = (1.0, 1.5)  # of the table
+_THICKEST = 1.5  # lambda, beyond which fits fall to 0
+_REASON = "least and largest of seven published fits, none measured"
+FASTEST = 99.0  # m/s, of a surface
+NODES = 65
+
+_SCATTER, _LEAST = 0.3, 0.001  # of one realisation about the page's mean, relative and absolute
+_FLATTENED = (
+    "the fits leave roughness rigid; here oil presses waves on the grid flat, and waves below it hardly reach across "
+    f"the film: {PAGE}"
+)
+_HARD = (
+    "the fits are 1 at lambda 0 whatever the load; waves below the grid, as steep as the trace's, would there carry "
+    f"several times the load: {PAGE}"
+)
+
+# Surfaces of a roller bearing by their traces, less the line that the instrument adds: contact_core/data/finishes.toml
+_LENGTHS, _BELOW = ("18 um", "6 um"), 0.2  # correlation lengths along the lay and across it; rms below 4 um over Rq
+_OF_BOTH = 0.5**0.5  # of the composite roughness, on each of two like bodies
+
+
+def line_contact(surface: Mapping[str, str]) -> dict[str, str]:
+    """Return the changes that make the scene `fzg_flank` a roller on a raceway, both with such a surface.
+
+    A line contact of 4 mm radius at 1.2 GPa in rolling with 1 % of slip.
+    """
+    changes = {
+        "geometry.radius_x": "4 mm", "geometry.face_width": "9 mm", "film.domain": "0.38 mm", "film.width": "0.19 mm",
+        "operation.load": "1416 N", "operation.speed_1": "1.005 m/s", "operation.speed_2": "0.995 m/s",
+    }  # fmt: skip
+    return changes | {f"surface_{body}.{key}": value for body in (1, 2) for key, value in surface.items()}
+
+
+def bearing(rq: float) -> dict[str, str]:
+    """Return the changes that make `fzg_flank` a roller on a raceway of a composite roughness [m]."""
+    along, across = _LENGTHS
+    each = _OF_BOTH * rq
+    return line_contact({
+        "rq": f"{each:.4g} m", "correlation_length": along, "correlation_length_across": across,
+        "microroughness.rms": f"{_BELOW * each:.4g} m", "microroughness.longest": "4 um",
+    })  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A shipped scene with changes, and its shares at LAMBDAS as the page has them, mean of three realisations."""
+
+    scene: str
+    changes: Mapping[str, str]
+    shares: tuple[float, float]
+
+    def cause(self, k: int, most: float) -> Cause:
+        """Return why the share at LAMBDAS[k] lies below or above the fits, of which the largest is `most`."""
+        share = self.shares[k]
+        return Cause(
+            _HARD if share > most else _FLATTENED, max((1.0 - _SCATTER) * share - _LEAST, 0.0),
+            (1.0 + _SCATTER) * share + _LEAST,
+        )  # fmt: skip
+
+
+def composite(scene: Scene) -> float:
+    """Return the rms height [m] of both bodies, with what is below the grid."""
+    bodies = (scene.surface_1, scene.surface_2)
+    parts = [part for body in bodies for part in (body.rms, body.microroughness.rms if body.microroughness else 0.0)]
+    return float(np.linalg.norm(parts))
+
+
+def at_lambda(scene: Scene, ratio: float) -> OperatingPoint:
+    """Return the scene's operating point at the speed that makes the film of smooth bodies `ratio` times Rq."""
+    op, rough = scene.operation.point, composite(scene)
+
+    def faster(log: float) -> OperatingPoint:
+        times = float(np.exp(log))
+        return replace(op, speed_1=op.speed_1 * times, speed_2=op.speed_2 * times)
+
+    def excess(log: float) -> float:
+        return float(np.log(Case.bind(scene, faster(log)).smooth_film / (ratio * rough)))
+
+    most = np.log(FASTEST / max(abs(op.speed_1), abs(op.speed_2)))
+    return faster(float(scipy.optimize.brentq(excess, most - 16.0, most, xtol=1e-4)))
+
+
+def scene_of(name: str, changes: Mapping[str, str]) -> Scene:
+    """Return a scene at the deterministic level on a small grid, with changes; a block takes 24 instants."""
+    given = {"film.model": "deterministic", "film.points": str(NODES), "control.mixed_instants": "24"}
+    return Scene.from_toml(name, given | dict(changes))
+
+
+def solved(name: str, ratio: float, changes: Mapping[str, str], seed: int | None = None) -> Outputs:
+    """Return the outputs of one solved block of fresh surfaces of a scene, at a lambda."""
+    scene = scene_of(name, changes)
+    op = at_lambda(scene, ratio)
+    scene = scene if seed is None else scene.realisation(seed)
+    return advance(scene, op, initial_state(scene), 0.0)[1]
+
+
+def fits() -> dict[str, dict[float, float]]:
+    """Return the share of the load on the solids by each published fit, over lambda."""
+    rows = read("asperity_load_share.csv")
+    names = [name for name in rows[0] if name not in ("lambda", LEFT_OUT)]
+    return {name: {row["lambda"]: row[name] for row in rows if np.isfinite(row[name])} for name in names}
+
+
+def band(ratio: float) -> tuple[float, float]:
+    """Return the least and the largest share of the fits at a lambda of the table."""
+    shares = [over[ratio] for over in fits().values() if ratio in over]
+    return min(shares), max(shares)
+
+
+CONTACTS = {
+    "mtm_zddp": Contact("mtm_zddp", {}, (0.0733, 0.0141)),
+    "azam_case_a": Contact("azam_case_a", {}, (0.0797, 0.0210)),
+    "fzg_flank": Contact("fzg_flank", {}, (0.00197, 0.00008)),
+    "ball_209_inner": Contact("ball_209_inner", {}, (0.00632, 0.00055)),
+    "pin_on_disc": Contact("pin_on_disc", {}, (0.00238, 0.00022)),
+    "raceway, Rq 0.16 um": Contact("fzg_flank", bearing(0.16e-6), (0.538, 0.0)),
+    "rib, Rq 0.24 um": Contact("fzg_flank", bearing(0.24e-6), (0.0, 0.0)),
+    "fine raceway, Rq 0.10 um": Contact("fzg_flank", bearing(0.10e-6), (0.0, 0.0)),
+}
+
+
+def _statistics(ratio: float) -> Row:
+    """Compare our law of dry roughness, read as the fits are: pressure at a mean gap over that without one."""
+    elastic, yielding = (float(np.exp(-ratio / height)) for height in (ELASTIC_HEIGHT, PLASTIC_HEIGHT))
+    return Row(
+        f"dry roughness by the fits' method, lambda {ratio:g}", "", band(ratio), 0.5 * (elastic + yielding), 0.0,
+        _REASON, 0.5 * abs(yielding - elastic),
+    )  # fmt: skip
+
+
+def _contact(name: str, k: int) -> Row:
+    contact, ratio = CONTACTS[name], LAMBDAS[k]
+    out, of_fits = solved(contact.scene, ratio, contact.changes), band(ratio)
+    return Row(
+        f"{name}, lambda {ratio:g}", "", of_fits, out.contact_load_ratio, 0.0, _REASON, out.error_load_ratio,
+        contact.cause(k, of_fits[1]),
+    )  # fmt: skip
+
+
+def run() -> Outcome:
+    """Compare our law of dry roughness, read as the fits are, and one block of solved contacts at each lambda."""
+    ratios = [ratio for ratio in fits()["erfc"] if ratio <= _THICKEST]
+    law = [_statistics(ratio) for ratio in ratios]
+    rows = [*law, *(_contact(name, k) for name in CONTACTS for k in range(len(LAMBDAS)))]
+    at, shares = zip(*((x, y) for over in fits().values() for x, y in over.items() if x <= _THICKEST), strict=True)
+    computed = np.array(ratios), np.array([row.computed for row in law])
+    curve = Curve(
+        "our dry roughness by the method of the fits", "lambda", "share of the load on the solids",
+        (np.array(at), np.array(shares)), computed, logarithmic=True,
+    )  # fmt: skip
+    return Outcome(tuple(rows), (curve,))
+
+
+COMPARISON = Comparison(
+    "Share of the load on the solids over lambda",
+    Kind.NUMERICAL,
+    "Seven published fits, computed from profiles or statistics of rigid roughness, none measured: their least and "
+    "largest is the reference. Beside them our own law of dry roughness read in the same way (stated error: half the "
+    "way from elastic to yielding asperities), and solved contacts: shipped scenes, and a roller on a raceway with "
+    f"the waves of a measured trace, one block on {NODES} nodes with its own stated error. lambda: film of smooth "
+    "bodies by formula over the rms height of both. An eighth fit is left out: its formula is from memory.",
+    "Aihara, J. Tribol. 109 (1987) 471; Zhou & Hoeprich, J. Tribol. 113 (1991) 590, doi:10.1115/1.2920664, as "
+    "evaluated by Wingertszahn et al., Lubricants 11 (2023) 369; Balan et al., Lubricants 3 (2015) 222; Arana, "
+    "Larranaga & Ulacia, Proc. IMechE J 233 (2019) 303, doi:10.1177/1350650118778655; Greenwood & Tripp, Proc. IMechE "
+    "185 (1970) 625, doi:10.1243/PIME_PROC_1970_185_069_02",
+    run,
+    "CC BY 4.0 where their sources are; evaluated here",
+)

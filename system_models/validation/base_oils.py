@@ -1,0 +1,44 @@
+"""Pressure coefficients of base oils by two viscosities and a family, beside measured ones."""
+
+import csv
+from importlib.resources import files
+
+from contact_core.laws.viscosity import AstmD341
+from contact_core.scene.bases import base_of
+
+from .model import Comparison, Kind, Outcome, Row, exactly, relative
+
+# relative half widths of the measured coefficients by how they are known: constants fitted to viscometry; a fit of
+# others to measurements without a name; a printed table that does not define its coefficient (slope or secant)
+_KNOWN = {"viscometry": 0.03, "fitted": 0.05, "printed": 0.1}
+
+
+def run() -> Outcome:
+    """Compare d ln(viscosity)/dp at p = 0 of each oil at its temperatures."""
+    text = (files(__package__) / "data" / "pressure_coefficients.csv").read_text("utf-8")
+    return Outcome(tuple(map(_row, csv.DictReader(text.splitlines()))))
+
+
+def _row(measured: dict[str, str]) -> Row:
+    base, celsius = base_of(measured["base"]), float(measured["temperature_C"])
+    value, provenance = float(measured["coefficient_per_GPa"]), measured["provenance"]
+    cold, hot = (1e-6 * float(measured[f"viscosity_{at}_mm2s"]) for at in (40, 100))
+    sheet = AstmD341(cold, hot, float(measured["density_15"]), 0.0, celsius + 273.15)
+    computed, known = 1e9 * base.oil(sheet).pressure_coefficient, _KNOWN[provenance]
+    return Row(
+        f"{measured['oil']} at {celsius:g} degC", "1/GPa", exactly(value), computed, relative(value, known),
+        f"{provenance}: {100.0 * known:.0f} %, assumed", relative(computed, base.interval),
+    )  # fmt: skip
+
+
+COMPARISON = Comparison(
+    "Pressure coefficients of base oils by two viscosities and a family",
+    Kind.MEASURED,
+    "What a scene with `base` takes where it gives no coefficient. The bends of mineral oils are those of FVA 3 and "
+    "M100, that of polyalphaolefins PAO100's; the rise with the fall of viscosity was fitted to N100 and the oils of "
+    "medium index. Nothing was fitted to HLP 32, the oils of high index and the copolymer. Stated error: the family's "
+    "interval.",
+    "Wingertszahn et al. 2023, doi:10.3390/lubricants11090369; Arana, Larranaga & Ulacia 2019, "
+    "doi:10.1177/1350650118778655; Stachowiak & Batchelor, Engineering Tribology, table 2.3",
+    run,
+)
