@@ -66,7 +66,7 @@ class SupplyFilm:
     def reach(self, half_width: float, radius: float) -> float:
         """Return how far before the centre [m] the inlet is full: to a gap of twice the layer.
 
-        What is refused piles up before the contact: fitted to solved films.
+        What is refused piles up before the contact. Fitted to solved films: `python -m benchmarks.machines.rolling`.
         """
         return math.sqrt(half_width**2 + 4.0 * radius * self.thickness)
 
