@@ -83,8 +83,7 @@ def _ball_rows() -> list[Row]:
             found.error * computed,
             Cause(
                 "solved films with an inlet full as far as the radius of the ball, not a third of it, have .71 to 1.08 "
-                "of the measured torques (docs/measured/machines/rolling.md); at the lowest speeds solid friction, "
-                "which does not fall with speed, comes on top",
+                "of the measured torques (docs/measured/machines/rolling.md); how full it was is not known",
                 0.45 * measured, measured,
             ),
         ))  # fmt: skip
@@ -99,8 +98,9 @@ def _roller_rows() -> list[Row]:
             f"32216, {row['rpm']:g} rpm, {row['oil_degC']:g} degC", "N m", exactly(measured), found.torque,
             relative(measured, READ), "read off a figure", found.error * found.torque,
             Cause(
-                "rollers follow each other through what they have left: with a layer of 1 to 3 um of oil in place of "
-                "a full inlet the contacts have .45 to 1.5 of the measured torque, of which ribs and cage take a part",
+                "a bath may not keep every inlet full: with a layer of 1 to 3 um of oil before each roller the "
+                "contacts have .41 to 1.51 of the measured torque (docs/measured/machines/rolling.md); it "
+                "was not measured",
                 measured, 2.6 * measured,
             ),
         ))  # fmt: skip
