@@ -144,6 +144,7 @@ PAGES: dict[str, Source] = {
     "friction/published_traction": Source("friction.published_traction", (*LEVELS, "fzg_flank", "measurements")),
     "friction/laws_cost": Source("friction.laws_cost", ("film", "evolution", "control", "data", "azam_case_a")),
     "machines/bearing_loads": Source("machines.bearing_loads", RIGS),
+    "machines/rolling": Source("machines.rolling", (*RIGS, *LEVELS, "evolution", "control")),
     "machines/bearing_torque": Source("machines.bearing_torque", RIGS),
     "machines/bearing_memory": Source("machines.bearing_memory", RIGS),
     "machines/bearing_life": Source("machines.bearing_life", (*RIGS, "evolution", "control")),

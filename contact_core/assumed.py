@@ -14,7 +14,7 @@ from . import regression
 from .errors import ContactError
 from .film import Regression
 from .scene import Case, OperatingPoint, Scene
-from .scene.intervals import Interval, replaced
+from .scene.intervals import Interval, applicable, replaced
 from .state import initial_state
 
 WEAR = "wear_depth"  # of both bodies together: their wear rate now
@@ -47,7 +47,7 @@ def assumed(scene: Scene, op: OperatingPoint) -> Mapping[str, Assumption]:
     case = Case.bind(scene.at_level(Regression.name), op)
     here = _answers(case)
     parts: dict[str, dict[str, float]] = {name: {} for name in OUTPUTS}
-    for interval in scene.intervals:
+    for interval in applicable(scene):
         ends = [_answers_at(case, interval.key, end) for end in interval.ends(scene)]
         for name in OUTPUTS:
             half = max((_change(name, here[name], end[name]) for end in ends if end), default=0.0)

@@ -3,6 +3,7 @@
     instant            `solve`: one instant of a scene in a state, and its fields
     friction           shear of solids and oil, forces, power, derivatives at a held film
     oil_temperature    temperature of the oil by heat and shear, and its flow at that temperature
+    rolling            rolling resistance: the couple of the oil, and what of it lies beyond the grid
     observed           outputs and range flags of one instant
     transient          consecutive instants: a film that depends on the one before, begins or opens
     present            the instant that a run is at, and its fields

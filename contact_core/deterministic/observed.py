@@ -1,7 +1,5 @@
 """Outputs and range flags of one instant."""
 
-import numpy as np
-
 from ..film.outputs import disc, film_outputs, open_outputs
 from ..scene import Case
 from ..state import RangeFlag

@@ -64,8 +64,9 @@ class SupplyFilm:
         return supplied_film(flooded, self.thickness, resistance=resistance)
 
     def reach(self, half_width: float, radius: float) -> float:
-        """Return how far before the centre [m] the inlet is full: to a gap of twice the layer, as what is refused piles
-        up before the contact (fitted to solved films: `python -m benchmarks.film.rolling`).
+        """Return how far before the centre [m] the inlet is full: to a gap of twice the layer.
+
+        What is refused piles up before the contact. Fitted to solved films: `python -m benchmarks.machines.rolling`.
         """
         return math.sqrt(half_width**2 + 4.0 * radius * self.thickness)
 

@@ -72,8 +72,9 @@ def _rolling(case: Case, viscosity: float, thinned: float, starved: float) -> tu
     """Return the rolling resistance [N] of the smooth bodies, and what supply has left of that of a flooded inlet.
 
     `thinned`: film by heat and shear of the inlet over the one without, which is that of a less viscous oil; `starved`:
-    film over the flooded one. The inlet is full as far as `reach` says: what lies beyond makes nothing, and the meniscus
-    takes from what lies before it the more, the nearer it is (fitted to solved films: benchmarks.film.rolling).
+    film over the flooded one. The inlet is full as far as `reach` says: what lies beyond makes nothing, and the
+    meniscus takes from what lies before it the more, the nearer it is (fitted to solved films:
+    benchmarks.machines.rolling).
     """
     entrainment, shape, supply = case.op.entrainment_speed, case.shape, case.scene.lubricant.supply
     speed = abs(entrainment)

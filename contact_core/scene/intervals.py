@@ -89,7 +89,7 @@ def _of_another_law(scene: Any, key: str) -> bool:
 
 def errors(scene: Any) -> Iterator[str]:
     """Yield sentences on intervals that cannot be."""
-    for interval in scene.intervals:
+    for interval in applicable(scene):
         try:
             interval.ends(scene)
         except SceneError as error:

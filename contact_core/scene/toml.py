@@ -100,8 +100,11 @@ def given(source: str | Path, overrides: Mapping[str, str]) -> tuple[dict[str, A
 
 
 def _still_assumed(intervals: Mapping[str, Any], changes: Iterable[str]) -> dict[str, Any]:
-    """Return the intervals of values that no change of a dotted key, or of its set or model, has replaced."""
-    roots = [key.removesuffix(".set").removesuffix(".model") for key in changes]
+    """Return the intervals of values that no change of a dotted key, or of its set, has replaced.
+
+    Another model keeps the values that it has in common with the one before.
+    """
+    roots = [key.removesuffix(".set") for key in changes]
     return {k: ends for k, ends in intervals.items() if not any(f"{k}.".startswith(f"{root}.") for root in roots)}
 
 

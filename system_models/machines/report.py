@@ -57,8 +57,8 @@ def _stated(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     if np.isnan(error):
         return []
     return [
-        f"Errors that the contacts state: {error:.1%} of the energy they lose by sliding and rolling, as if all were off the same way; the "
-        "error of the coupling comes on top."
+        f"Errors that the contacts state: {error:.1%} of the energy they lose by sliding and rolling, as if all were "
+        "off the same way; the error of the coupling comes on top."
     ]
 
 

@@ -8,6 +8,7 @@
     base_oils       measured: pressure coefficients by two viscosities and a family
     traction        measured: friction of full films
     asperity_load   published numerical: share of the load on the solids
+    rolling_torques measured: friction torques of bearings that roll
     film_formulas   published numerical: films of points and lines
     starvation      published numerical: films of too little oil
     dry_contact     closed form: Hertz's contact

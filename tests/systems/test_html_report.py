@@ -237,7 +237,7 @@ def test_assumed_values_are_told_where_the_result_has_them(tmp_path: Path, monke
     assert main(["run", str(scene), *quick, "--out", str(out)]) == 0
     run = open_run(out)
     told = Parsed(page(run)).text.split("what the scene does not say")[1]
-    assert "surface_1.correlation_length" in told and "8 um as in the shipped scenes" in told
+    assert "surface_1.correlation_length" in told and "of a polished surface" in told
     attributes = {key: value for key, value in run.dataset.attrs.items() if key != ASSUMED}
     bare = run.dataset.copy()
     bare.attrs = attributes

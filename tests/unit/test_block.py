@@ -10,6 +10,7 @@ from comparison import HARD, approx
 from contact_core import ContactState, RangeFlag, advance, initial_state, solve
 from contact_core.deterministic.accumulator import Accumulator
 from contact_core.deterministic.evolution import geometry_change
+from contact_core.deterministic.rolling import beyond_grid, couple
 from contact_core.deterministic.sampling import sample_dry, sample_mixed
 from contact_core.scene import Case
 from contact_core.surfaces.patches import patch_nodes
@@ -190,3 +191,23 @@ def test_a_groove_counts_for_a_fifth_of_what_happens_to_asperities():
     assert geometry_change(body, replace(body, wear=1e-9 * ones)) == approx(0.2e-9)
     assert geometry_change(body, replace(body, growth=1e-9 * ones)) == approx(1e-9)
     assert geometry_change(body, replace(body, wear=2e-9 * wavy)) == approx(2e-9 / np.sqrt(2.0))
+
+
+def test_rolling_is_that_of_the_mean_film_for_flanks_give_back_what_they_take():
+    """Roughness at rest or passing: over a pass the couple is that of the inlet, with what lies beyond the grid."""
+    scene, state, op = cheap()
+    sums, case = Accumulator.before(state), Case(scene, op)
+    x = case.grid(state.rows).x
+    inlet, wave = 2e-7 * (1.0 - 1e3 * x), 2.0 * np.pi * np.arange(x.size) / (x.size - 1)
+    fields = solve(scene, op, state)
+    for k in range(8):
+        turn = 4.0 * wave - 0.25 * np.pi * k
+        gap = np.tile(inlet + 1e-7 * np.cos(turn), (state.rows, 1))
+        pressure = np.tile(1e7 + 1e12 * x + 1e9 * np.sin(turn), (state.rows, 1))
+        sums.add(case, state, replace(fields, gap=gap, fluid_pressure=pressure))
+    grid = case.grid(state.rows)
+    steady = couple(grid, np.tile(inlet, (state.rows, 1)), np.tile(1e7 + 1e12 * x, (state.rows, 1)))
+    beyond = beyond_grid(case, grid)
+    assert 0.0 < beyond < 0.1
+    assert sums.means()["rolling_resistance"] == approx(steady + beyond, rel=1e-6)
+    assert abs(np.mean([seen["rolling_resistance"] for seen in sums.outputs]) / steady - 1.0) > 0.5

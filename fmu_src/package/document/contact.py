@@ -177,8 +177,8 @@ def _temperatures(scene: Scene) -> str:
 def errors(scene: Scene) -> Iterator[str]:
     """Yield the section on the errors of the outputs."""
     yield paragraph(
-        "error_friction, error_film, error_tribofilm_1 and _2 and error_wear are half widths of 95 % intervals, "
-        "relative; "
+        "error_friction, error_rolling, error_film, error_tribofilm_1 and _2 and error_wear are half widths of 95 % "
+        "intervals, relative; "
         "error_load_ratio is that of contact_load_ratio, absolute. " + LEVELS[scene.film.name].errors
     )
     yield paragraph("Measured errors, and the command of the repository that measures them:")
