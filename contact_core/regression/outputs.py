@@ -156,7 +156,14 @@ def half_widths(case: Case, contact: MeanContact) -> dict[str, Any]:
     gap is that of bodies that just touch: nothing is known of it.
     """
     if not case.loaded:
-        none = ("error_friction", "error_rolling", "error_load_ratio", "error_tribofilm_1", "error_tribofilm_2", "error_wear")
+        none = (
+            "error_friction",
+            "error_rolling",
+            "error_load_ratio",
+            "error_tribofilm_1",
+            "error_tribofilm_2",
+            "error_wear",
+        )
         return dict.fromkeys(none, 0.0) | {"error_film": 1.0}
     force, share = abs(contact.solid + contact.fluid), contact.load_ratio
     sharing = regression_film(case.scene).sharing
