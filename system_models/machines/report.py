@@ -38,13 +38,13 @@ def lost(assembly: Assembly, dataset: xr.Dataset) -> float:
 def _losses(assembly: Assembly, dataset: xr.Dataset) -> list[tuple[str, np.ndarray]]:
     """Return what each contact loses in each step by sliding and by rolling [J], of all that it stands for.
 
-    With the column of the error of either. Records of machines from before rolling had an error lack it.
+    With the column of the error of either. Records without speeds, or from before rolling had an error, lack rolling.
     """
     found, steps = [], np.diff(dataset["time"].values, prepend=0.0)
     for name, contact in assembly.contacts.items():
         count = dataset[contact.count].values if contact.count else 1.0
         found.append((f"{name}.error_friction", np.abs(count * dataset[f"{name}.power_loss"].values) * steps))
-        if f"{name}.error_rolling" in dataset:
+        if {f"{name}.{each}" for each in ("error_rolling", "speed_1", "speed_2")} <= {*map(str, dataset)}:
             speeds = dataset[f"{name}.speed_1"].values + dataset[f"{name}.speed_2"].values
             rolled = dataset[f"{name}.rolling_resistance"].values * speeds
             found.append((f"{name}.error_rolling", np.abs(count * rolled) * steps))
