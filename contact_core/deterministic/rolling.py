@@ -6,9 +6,10 @@ The shear stress of the pressure flow, (h/2) dp/dx against +x on both surfaces, 
 
 Conservation of mass makes 2 u_e F_r the power that the pressure flow dissipates, but for the integral of p dh/dt: what
 the flanks of moving roughness take from the bodies and give back, and where bodies slide, what they add to friction. It
-averages out of rolling where h and p are means over the instants in which roughness passes, and F_r is that of the mean
-film: the hydrodynamic couple of the inlet, which formulas of smooth bodies have (`reference.rolling_line`,
-`reference.rolling_point`). A grid ends within the inlet; what lies beyond is added in closed form.
+averages out of rolling where h and p are means over the instants in which roughness passes (that of a body at rest does
+not), and F_r is that of the mean film: the hydrodynamic couple of the inlet, which formulas of smooth bodies have
+(`reference.rolling_line`, `reference.rolling_point`). A grid ends within the inlet; what lies beyond is added in closed
+form.
 
 Source: Biboulet & Houpert, Proc. IMechE J 224 (2010) 765 and 777, doi:10.1243/13506501JET790 and 791.
 """
