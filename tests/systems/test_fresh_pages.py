@@ -30,7 +30,7 @@ OWED = {
     ),
     *("fmu/endurance", "fmu/overhead", "friction/laws_cost", "friction/traction", "machines/tolerance"),
     *("regression/cost", "regression/curves", "regression/held_back", "regression/shapes", "speed_error"),
-    *("surfaces/asperity_load_share", "surfaces/evolution", "surfaces/stribeck", "surfaces/tribofilm"),
+    *("surfaces/evolution", "surfaces/stribeck", "surfaces/tribofilm"),
     "thesis/validation",
 }
 
