@@ -5,7 +5,7 @@
     "boundary_friction.bare" = ["-20 %", "+15 %"]  # of the scene's own value
 
 Named sets and defaults bring their own; a value that is set beside them has none unless its scene gives one. What the
-intervals are worth in friction, film and wear: `contact_core.worth`.
+intervals are worth in friction, film and wear: `contact_core.assumed`.
 """
 
 from collections.abc import Iterator, Mapping
