@@ -28,7 +28,7 @@ class Regression:
 
     friction: ClassVar[Equations] = Equations(
         (
-            "F = −(μ W_c W + κ ⟨τ_{oil}⟩ A_{oil}) (u_1 − u_2)/|u_1 − u_2|,   ln κ = exp[(0.45 − s)/1.15] ln c",
+            "F = −(μ W_c W + κ ⟨τ_{oil}⟩ A_{oil}) (u_1 − u_2)/|u_1 − u_2|,   κ = c^{exp[(0.45 − s)/1.15]}",
             "τ_N = η(p, T) |u_1 − u_2|/h_c",
             "A_{oil} = (1 − W_c) A_H/k,   p = k p_H",
             "k = [1 + K t^{−w} exp(−d Z t^{−q})] [(1 + S h_s R_x/a^2) (1 + S h_s R_y/b^2)]^{−1/2},   t = s/0.2",
