@@ -24,11 +24,13 @@ class Transient:
     """The step from the state's last film solution to an instant."""
 
     dt: float  # time since then [s]
-    moved: int  # nodes by which the rougher surface has moved along +x since then
+    moved: int  # nodes by which the rougher surface has moved along +x on the grid since then
     iterations: int  # at most
     heated: bool = True  # False: temperatures are not needed; the film keeps its last ones
     order: int = 1  # of the squeeze term in time, 1 or 2
     thorough: bool = False  # True: try all algorithms; False: the residual carries over to the next instant
+    shifted: float = 0.0  # nodes by which the grid itself has moved along +x
+    rolled: int = 0  # and those by which the oil has moved along on the grid
 
 
 @dataclass(frozen=True)
@@ -112,7 +114,7 @@ def solve_instant(
     scene = case.scene
     level, full = scene.film, scene.tribofilm.full_thickness
     assert isinstance(level, Deterministic)
-    faced, grid = facing_surfaces(scene, state, moving=transient is not None), scene.grid(state.rows)
+    faced, grid = facing_surfaces(scene, state, moving=transient is not None), scene.grid(state.rows).shifted(state.window)
     film_1, film_2 = faced.tribofilms
     covers = film_1 / full, film_2 / full
     cover = 0.5 * (covers[0] + covers[1])
@@ -124,7 +126,8 @@ def solve_instant(
     else:
         step = None
         if transient and before:
-            step = Step(transient.dt, transient.moved, transient.order, transient.thorough)
+            ways = transient.moved, transient.shifted, transient.rolled
+            step = Step(transient.dt, *ways, transient.order, transient.thorough)
         most = transient.iterations if transient else None
         film = solve_flow(
             case,

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FilmTooWideError, OperatingPointError
+from ..film import Deterministic
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
 from ..surfaces.patches import facing_films, on_patches
@@ -70,12 +71,25 @@ def follow(
 def next_instant(case: Case, state: ContactState, steps: Sequence[float], transient: Transient) -> Found:
     """Solve an instant after that of a state with a film; the bodies have moved along +x by `steps` [m].
 
-    The nodes moved by in `transient` are filled in here.
+    Where the oil is carried over, the nodes of the contact move on with it. The ways in `transient` are filled in here.
     """
-    state = rolled(case.scene, state, steps)
-    moved = round(steps[case.scene.rougher] / case.scene.film.spacing)
-    fields = solve_instant(case, state, replace(transient, moved=moved))
+    spacing, columns, rougher = case.scene.film.spacing, case.scene.film.points - 1, case.scene.rougher
+    way = case.op.entrainment_speed * transient.dt if transient.order == 1 and _is_carried(case) else 0.0
+    oil = round((state.window + way) / spacing)  # nodes that it moves along; by the rest the nodes move with it
+    shift = way - oil * spacing
+    before = round(state.bodies[rougher].offset / spacing)
+    state = rolled(case.scene, replace(state, window=state.window + shift), [step - shift for step in steps])
+    moved = (round(state.bodies[rougher].offset / spacing) - before + columns // 2) % columns - columns // 2
+    ways = replace(transient, moved=moved, shifted=shift / spacing, rolled=oil)
+    fields = solve_instant(case, state, ways)
     return _after(case.scene, state, fields), fields
+
+
+def _is_carried(case: Case) -> bool:
+    """Return True if the oil between the bodies moves on as it is, which cavities and menisci are not."""
+    film, oil = case.scene.film, case.scene.lubricant
+    fitted = isinstance(film, Deterministic) and film.flux == "fitted"
+    return fitted and oil.cavitation != "mass_conserving" and oil.supply.inlet is None
 
 
 def dry_instant(case: Case, state: ContactState, steps: Sequence[float]) -> Found:

@@ -120,10 +120,13 @@ class Control:
     dry_instants: int = parameter("", "instants of a block driven dry", least=1, most=1000, default=3)
     mixed_instants: int = parameter(
         "",
-        "instants of a block driven by mixed lubrication; 0: as many as an eighth of a pass takes",
+        "way of the oil in a block driven by mixed lubrication, in nodes; 0: an eighth of a pass",
         least=0,
         most=1000,
         default=0,
+    )
+    nodes_per_instant: float = parameter(
+        "", "way of the oil from instant to instant of a mixed block, in nodes", above=0.0, most=8.0, default=1.0
     )
     longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=120.0)
     inputs: str = parameter(
