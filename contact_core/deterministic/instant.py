@@ -114,7 +114,8 @@ def solve_instant(
     scene = case.scene
     level, full = scene.film, scene.tribofilm.full_thickness
     assert isinstance(level, Deterministic)
-    faced, grid = facing_surfaces(scene, state, moving=transient is not None), scene.grid(state.rows).shifted(state.window)
+    faced = facing_surfaces(scene, state, moving=transient is not None)
+    grid = scene.grid(state.rows).shifted(state.window)
     film_1, film_2 = faced.tribofilms
     covers = film_1 / full, film_2 / full
     cover = 0.5 * (covers[0] + covers[1])

@@ -52,7 +52,7 @@ def slow_film(now: Instant, grid: Grid, shifted: float, settings: Settings, solv
     smooth = _Smooth(
         shape=now.shape,
         load=now.load,
-        near=tuple(_near(value) for value in (now.load, now.entrainment_speed)),
+        near=(_near(now.load), _near(now.entrainment_speed)),
         temperature=_KELVIN * round(now.temperature / _KELVIN),
         viscosity=viscosity,
         density=density,

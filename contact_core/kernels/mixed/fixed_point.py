@@ -207,9 +207,9 @@ class Iteration:
             if reynolds.fluid_under_contacts(p, f, solid, *balance, *constants, full, *flow.nodes, first, q.wrapped):
                 self._carry(full)
         scales = (*q.layer, *q.terms, q.compliance, self.patch)
-        out = (self.r, self.stiff, self.dh, self.sums)
+        out = (self.r, self.stiff, self.dh, self.sums, flow.slow is None)
         state = (p, f, q.cap, solid, *balance)
-        self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, flow.slow is None, filling, first)
+        self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, filling, first)
         if isinstance(self.half_space, GivingHalfSpace):  # the node itself gives way by a part of the change
             self.dh /= 1.0 + self.half_space.give.slope_at(p) / self.patch
         if q.wrapped:

@@ -223,9 +223,9 @@ class _Film:
         linearisation.slopes(self.f, solid, self.h, q.floor, q.step, q.density, self.slope)
         wedge = q.wedge if flow.slow is None else 0.0  # what M carries does not depend on the mass of now
         film = (self.f, flow.gap, flow.fluid, q.thinned, *flow.faces, flow.share, q.fitted)
-        film = (*film, q.per_dt, wedge, q.spacing, self.slope)
+        terms = (q.per_dt, wedge, q.spacing, self.slope)
         filling, first = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
-        linearisation.linearise(*film, first, filling, by_f, by_h)
+        linearisation.linearise(*film, *terms, first, filling, by_f, by_h)
         linearisation.follow_gap(by_f, gain, by_h)
         yields = held & (self.p >= q.cap) & (self.h < rest)
         wet = ((self.f > 0.0) | (self.r > 0.0)) & ~((self.p >= q.cap) & (self.r >= 0.0))
