@@ -86,10 +86,9 @@ def next_instant(case: Case, state: ContactState, steps: Sequence[float], transi
 
 
 def _is_carried(case: Case) -> bool:
-    """Return True if the oil between the bodies moves on as it is, which cavities and menisci are not."""
-    film, oil = case.scene.film, case.scene.lubricant
-    fitted = isinstance(film, Deterministic) and film.flux == "fitted"
-    return fitted and oil.cavitation != "mass_conserving" and oil.supply.inlet is None
+    """Return True if the oil between the bodies moves on as it is; before a meniscus there is none."""
+    film = case.scene.film
+    return isinstance(film, Deterministic) and film.flux == "fitted" and case.scene.lubricant.supply.inlet is None
 
 
 def dry_instant(case: Case, state: ContactState, steps: Sequence[float]) -> Found:

@@ -170,7 +170,7 @@ class Scaled:
             return 0.0, np.zeros_like(self.cap)
         per_dt, mass = self.size / (self.speed * self.step.dt), self.start.mass
         if self.slow is not None:
-            return per_dt, self.slow.carried(mass, self.step.rolled)
+            return per_dt, self.slow.carried(mass, self.step.rolled, self.now.supply)
         if self.step.order == 1 or self.start.dt == 0.0:
             return per_dt, mass
         ratio = self.step.dt / self.start.dt
@@ -193,6 +193,7 @@ class Scaled:
         ease, thinned = self._oil(viscosity)
         images = self._with_images
         weight = images(weight)
+        conserving = now.conserving and self.slow is None  # what moves along conserves it anyway
         if self.grid.periodic:
             weight[[0, -1]] = 0.0
         return Problem(
@@ -213,8 +214,8 @@ class Scaled:
             edge=images(edge),
             weight=weight,
             lumped=self.settings.lumped,
-            conserving=now.conserving,
-            supply=None if now.supply is None else now.supply / self.h_unit,
+            conserving=conserving,
+            supply=now.supply / self.h_unit if conserving and now.supply is not None else None,
             first=self._first,
             wrapped=self.grid.periodic,
             fitted=self.settings.fitted,

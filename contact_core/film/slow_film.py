@@ -36,11 +36,16 @@ class SlowFilm:
     before: Array
     now: Array
 
-    def carried(self, mass: Array, rolled: int) -> Array:
-        """Return a mass [m] of the instant before on the nodes of now; its deviation moves along by `rolled` nodes."""
+    def carried(self, mass: Array, rolled: int, supply: float | None = None) -> Array:
+        """Return a mass [m] of the instant before on the nodes of now; its deviation moves along by `rolled` nodes.
+
+        supply: mass [m] that enters at most; None: as much as the first column can take.
+        """
         deviation = mass - self.before
+        if supply is not None:
+            deviation[:, 0] = np.minimum(mass[:, 0], supply) - self.before[:, 0]
         if rolled > 0:
-            entering = deviation[:, :1] + np.arange(rolled, 0, -1) * (deviation[:, :1] - deviation[:, 1:2])
+            entering = np.repeat(deviation[:, :1], rolled, axis=1)
             deviation = np.concatenate([entering, deviation[:, :-rolled]], axis=1)
         return np.asarray(self.now + deviation)
 

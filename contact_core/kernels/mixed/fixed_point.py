@@ -35,6 +35,7 @@ _LEAST_PART = 0.1  # of the load, that the balance of a film that conserves its 
 # oil of this part of what asperities carry is none where cavities hold oil: p - s(h) is a small difference there, and
 # its sign would decide between a cavity and a full node anew in every iteration
 _TRACE = 0.02
+_EMPTIEST, _FULLEST = 0.98, 5.0  # mass that a node may lack, or have to spare, at the end of a step, over what it holds
 _SHARE_TOLERANCE = 0.02  # nodes at the floor with a fluid pressure of about p change sides for ever, p unchanged
 
 
@@ -280,22 +281,20 @@ class Iteration:
         )
 
     def _missing_mass(self) -> Array:
-        """Return the mass that nodes have taken in by their balance and do not hold, solid contacts included.
+        """Return the mass that nodes have taken in by their balance and do not hold, contacts and cavities included.
 
         An iteration stops before the oil between asperities is in balance, and what is out of balance there has mostly
-        one sign. Left out, it would add up from step to step: the film would depend on their number. Cavities count as
-        full: of what they have taken in, they keep what is too much.
+        one sign. Left out, it would add up from step to step: the film would depend on their number. A node whose oil
+        has no pressure holds what its balance leaves it.
         """
-        q, carried, missing, nowhere = self.problem, self.carried, np.zeros_like(self.r), np.zeros_like(self.solid)
-        if q.conserving:
-            assert carried is not None
-            balance = (self.mass, q.mass_old, *self.flow.faces, carried.flux, *q.terms)
-            reynolds.residual(self.f, nowhere, *balance, missing, carried.filling, carried.first)
-            return missing
-        if q.lumped or carried is not None:
+        q, missing, nowhere = self.problem, np.zeros_like(self.r), np.zeros_like(self.solid)
+        if q.lumped or (self.carried is not None and not q.conserving):
             return np.where(self.solid | (self.p <= 0.0), 0.0, self.r)
-        reynolds.residual(self.f, nowhere, self.mass, q.mass_old, *self.flow.through, *q.terms, missing, None, 1)
-        return np.where(self.p <= 0.0, 0.0, np.where(self.f > 0.0, missing, np.maximum(missing, 0.0)))
+        flux, *inlet = self.flow.carried, None, 1
+        if self.carried is not None:
+            flux, *inlet = self.carried.flux, self.carried.filling, self.carried.first
+        reynolds.residual(self.f, nowhere, self.mass, q.mass_old, *self.flow.faces, flux, *q.terms, missing, *inlet)
+        return missing if q.by_flux or q.slow_mass is not None else np.where(self.p <= 0.0, 0.0, missing)
 
     def kept(self, found: Solution) -> Solution:
         """Return a copy of an assessed solution that is independent of the scratch arrays."""
@@ -303,7 +302,7 @@ class Iteration:
         if self.problem.per_dt > 0.0:
             # the residual of the mass balance goes into the history of the film: the next instant corrects it
             missing = self._missing_mass() / self.problem.per_dt
-            mass += np.clip(missing, -0.5 * mass, 0.5 * mass)
+            mass += np.clip(missing, -_EMPTIEST * mass, _FULLEST * mass)
             if self.problem.wrapped:
                 wrap(mass)
         fluid = np.where(self.solid, 0.0, self.f) if self.problem.lumped else self.f.copy()
