@@ -116,7 +116,7 @@ def _worn_at_the_ends(case: Case, state: ContactState) -> bool:
     Its pressure tells: wear may also be a groove from earlier motion, which goes on beyond the ends.
     """
     scars = [
-        on_grid(state.bodies[side.body].pressure, patch_nodes(case.scene, state.bodies[side.body]))
+        on_grid(state.bodies[side.body].pressure, patch_nodes(case.scene, state.bodies[side.body], state.window))
         for side in case.sides
         if not side.moves
     ]

@@ -127,8 +127,8 @@ def solve_instant(
     else:
         step = None
         if transient and before:
-            ways = transient.moved, transient.shifted, transient.rolled
-            step = Step(transient.dt, *ways, transient.order, transient.thorough)
+            how = transient.moved, transient.order, transient.thorough
+            step = Step(transient.dt, *how, transient.shifted, transient.rolled)
         most = transient.iterations if transient else None
         film = solve_flow(
             case,

@@ -11,7 +11,7 @@ from ..errors import FilmTooWideError, OperatingPointError
 from ..film import Deterministic
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
-from ..surfaces.patches import facing_films, on_patches
+from ..surfaces.patches import facing_films, on_patches, patch_nodes
 from .instant import ContactFields, Transient, solve, solve_instant
 
 Array = NDArray[np.float64]
@@ -76,11 +76,12 @@ def next_instant(case: Case, state: ContactState, steps: Sequence[float], transi
     spacing, columns, rougher = case.scene.film.spacing, case.scene.film.points - 1, case.scene.rougher
     way = case.op.entrainment_speed * transient.dt if transient.order == 1 and _is_carried(case) else 0.0
     oil = round((state.window + way) / spacing)  # nodes that it moves along; by the rest the nodes move with it
-    shift = way - oil * spacing
-    before = round(state.bodies[rougher].offset / spacing)
-    state = rolled(case.scene, replace(state, window=state.window + shift), [step - shift for step in steps])
-    moved = (round(state.bodies[rougher].offset / spacing) - before + columns // 2) % columns - columns // 2
-    ways = replace(transient, moved=moved, shifted=shift / spacing, rolled=oil)
+    window = state.window + way - oil * spacing
+    before = patch_nodes(case.scene, state.bodies[rougher], state.window)
+    shifted, state = (window - state.window) / spacing, rolled(case.scene, replace(state, window=window), steps)
+    moved = patch_nodes(case.scene, state.bodies[rougher], window) - before
+    moved = (moved + columns // 2) % columns - columns // 2
+    ways = replace(transient, moved=moved, shifted=shifted, rolled=oil)
     fields = solve_instant(case, state, ways)
     return _after(case.scene, state, fields), fields
 

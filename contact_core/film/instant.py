@@ -108,10 +108,10 @@ class Step:
 
     dt: float  # time since then [s]
     moved: int = 0  # nodes by which the rough surfaces have moved along +x on the grid since then
-    shifted: float = 0.0  # nodes by which the grid itself has moved along +x since then
-    rolled: int = 0  # and those by which the oil moved along on the grid; both 0: the grid stands still under the oil
     order: int = 1  # of the squeeze term in time: 1, backward Euler; 2, backward differences over two steps
     thorough: bool = False  # True: every algorithm is tried; False: the residual carries over to the next instant
+    shifted: float = 0.0  # nodes by which the grid itself has moved along +x since then
+    rolled: int = 0  # and those by which the oil moved along on the grid; both 0: the grid stands still under the oil
 
     def mirrored(self) -> "Step":
         """Return the step mirrored along x."""

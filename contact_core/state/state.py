@@ -126,7 +126,7 @@ class ContactState:
     # of the oil in the mixed solutions that measured `share`, over the load that it carries; it holds in dry blocks
     oil_friction: float = 0.0
     oil_rolling: float = 0.0  # resistance
-    window: float = 0.0  # way [m] by which the nodes of the contact, and all offsets, lie further along +x
+    window: float = 0.0  # way [m] by which the nodes of the contact lie further along +x: they move on with the oil
     below: Below | None = None  # stresses and damage below the surfaces; None: none sampled yet
     classes: Classes | None = None  # damage at the regression level; None: that of `below`
 

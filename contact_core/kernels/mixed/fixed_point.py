@@ -290,11 +290,13 @@ class Iteration:
         q, missing, nowhere = self.problem, np.zeros_like(self.r), np.zeros_like(self.solid)
         if q.lumped or (self.carried is not None and not q.conserving):
             return np.where(self.solid | (self.p <= 0.0), 0.0, self.r)
-        flux, *inlet = self.flow.carried, None, 1
+        balance = (self.mass, q.mass_old, *self.flow.faces)
         if self.carried is not None:
-            flux, *inlet = self.carried.flux, self.carried.filling, self.carried.first
-        reynolds.residual(self.f, nowhere, self.mass, q.mass_old, *self.flow.faces, flux, *q.terms, missing, *inlet)
-        return missing if q.by_flux or q.slow_mass is not None else np.where(self.p <= 0.0, 0.0, missing)
+            cavities_and_inlet = self.carried.filling, self.carried.first
+            reynolds.residual(self.f, nowhere, *balance, self.carried.flux, *q.terms, missing, *cavities_and_inlet)
+            return missing
+        reynolds.residual(self.f, nowhere, *balance, self.flow.carried, *q.terms, missing, None, 1)
+        return missing if q.slow_mass is not None else np.where(self.p <= 0.0, 0.0, missing)
 
     def kept(self, found: Solution) -> Solution:
         """Return a copy of an assessed solution that is independent of the scratch arrays."""
