@@ -68,7 +68,6 @@ def solve(
     *,
     dry: bool = False,
     solid_share: float = 1.0,
-    oil_friction: float | None = None,
 ) -> ContactFields:
     """Solve the contact at one instant; time and state stand still.
 
@@ -78,7 +77,6 @@ def solve(
     dry : leave the film out.
     solid_share : share of the load that the solids of a dry contact carry; oil spread as in Hertz's contact carries the
         rest.
-    oil_friction : coefficient of friction of that oil; None: by its rheology at that pressure, in the dry gap.
 
     Returns
     -------
@@ -98,7 +96,7 @@ def solve(
     if not isinstance(scene.film, Deterministic):
         raise SceneError(f"film.model = '{scene.film.name}' has no fields. Solve scene.at_level('deterministic').")
     case = Case.bind(scene, op, state.temperatures)
-    return solve_instant(case, state, transient, dry=dry, solid_share=solid_share, oil_friction=oil_friction)
+    return solve_instant(case, state, transient, dry=dry, solid_share=solid_share)
 
 
 def solve_instant(
@@ -108,7 +106,6 @@ def solve_instant(
     *,
     dry: bool = False,
     solid_share: float = 1.0,
-    oil_friction: float | None = None,
 ) -> ContactFields:
     """Solve a case at one instant; as `solve`, for an operating point that has been checked."""
     scene = case.scene
@@ -140,7 +137,7 @@ def solve_instant(
             level.tolerance,
             oxide,
         )
-    rubbed = replace(sheared(grid, film, cover, case.op.inlet_temperature, oxide), oil_friction=oil_friction)
+    rubbed = sheared(grid, film, cover, case.op.inlet_temperature, oxide)
     found, stress, warm, shortfall = warmed(case, rubbed, before, heated=not transient or transient.heated)
     convergence = film.convergence | {
         "converged": film.converged and not shortfall,

@@ -31,7 +31,7 @@ _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through
 _CLEAR = 3.0  # formula film over rms roughness, from which on a dry contact is no start
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
 _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the sampled film
-_CALMING = 24  # transient steps after a jump of a rougher one, or from a dry contact of the right share
+_CALMING = 24  # nodes of the oil's way after a jump of a rougher one
 
 
 def sample_dry(case: Case, state: ContactState, sums: Accumulator, same: bool) -> ContactState:
@@ -80,7 +80,6 @@ def sample_mixed(
     unsampled = settling_instants(case)
     if state.film is None:
         state = replace(state, film=first_film(case, state))
-        unsampled = unsampled if state.share == 1.0 else _instants(scene, _CALMING)
     elif same and (any(jumps) or pass_goes_on(case, state, same) or not (jumping and case.sides[smoother].moves)):
         unsampled = 0
     elif same:
@@ -110,15 +109,14 @@ def rest_of_a_pass(case: Case, state: ContactState, sums: Accumulator, same: boo
 def first_film(case: Case, state: ContactState) -> FilmState:
     """Return the film that a march begins with.
 
-    It is the steady one where smooth bodies' film clears the roughness by far, else that of a dry contact, whose solids
-    carry the share that was measured.
+    It is the steady one where smooth bodies' film clears the roughness by far, else that of a dry contact.
     """
     scene = case.scene
     clear = case.smooth_film > _CLEAR * math.hypot(scene.surface_1.rms, scene.surface_2.rms)
-    if clear and state.share == 1.0:
+    if clear:
         with suppress(ConvergenceError):
             return solve_instant(case, state).film
-    return solve_instant(case, state, dry=True, solid_share=state.share).film
+    return solve_instant(case, state, dry=True).film
 
 
 def instant_time(case: Case) -> float:
@@ -148,8 +146,8 @@ def settling_instants(case: Case) -> int:
 
 
 def mixed_instants(scene: Scene) -> int:
-    """Return the sampled instants of a mixed block: by default an eighth of a pass, whatever the grid."""
-    return _instants(scene, scene.control.mixed_instants or math.ceil((scene.film.points - 1) / 8))
+    """Return the sampled instants of a mixed block: by default a sixteenth of a pass, whatever the grid."""
+    return _instants(scene, scene.control.mixed_instants or math.ceil((scene.film.points - 1) / 16))
 
 
 def blocks_per_pass(scene: Scene, driver: str) -> float:

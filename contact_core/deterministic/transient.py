@@ -93,10 +93,9 @@ def _is_carried(case: Case) -> bool:
 
 
 def dry_instant(case: Case, state: ContactState, steps: Sequence[float]) -> Found:
-    """Solve a dry instant whose solids carry the state's share; the bodies have moved along +x by `steps` [m]."""
+    """Solve a dry instant; the bodies have moved along +x by `steps` [m]."""
     state = rolled(case.scene, state, steps)
-    oil = state.oil_friction if state.share < 1.0 else None
-    fields = solve_instant(case, state, dry=True, solid_share=state.share, oil_friction=oil)
+    fields = solve_instant(case, state, dry=True)
     return replace(_after(case.scene, state, fields), film=None), fields
 
 
