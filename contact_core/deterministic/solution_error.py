@@ -23,8 +23,8 @@ from .rolling import beyond_grid
 # of an output over roughness: what stricter iterations and shorter steps still change, and what a solution has at most
 # that did not converge (`python -m benchmarks.film.time_step`)
 _STOPPED, _UNCONVERGED = 0.025, 0.3
-# error of W_c by the time step over a hard floor; rms of asperities below the grid over that of the surfaces, with which
-# it falls by e: they soften how contacts begin and end
+# error of W_c by the time step over a hard floor; rms of asperities below the grid over that of the surfaces, by which
+# it falls to 1 / e: they soften how contacts begin and end
 _HARD, _SOFTENED = 0.2, 0.05
 _ON_SOLIDS, _AT_EDGE = 0.5, 0.25  # of rolling resistance: part where solids carry all; of its share beyond the grid
 _RELATIVE: dict[str, Callable[[float, float, float], float]] = {
