@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy.signal
 from cheap_scene import CHEAP, cheap
 from comparison import HARD, approx
 
@@ -175,3 +176,19 @@ def test_rolling_is_that_of_the_mean_film_for_flanks_give_back_what_they_take():
     assert 0.0 < beyond < 0.1
     assert sums.means()["rolling_resistance"] == approx(steady + beyond, rel=1e-6)
     assert abs(np.mean([seen["rolling_resistance"] for seen in sums.outputs]) / steady - 1.0) > 0.5
+
+
+def test_the_mean_of_alike_instants_scatters_more_than_they_do():
+    """A stationary sequence of known correlation, four neighbours at a time."""
+    state = cheap()[1]
+    random, correlation = np.random.default_rng(5), 0.9
+    noise = random.normal(size=40_000)
+    values = scipy.signal.lfilter([(1.0 - correlation**2) ** 0.5], [1.0, -correlation], noise)
+    alike = np.mean([correlation**k for k in (1, 1, 1, 2, 2, 3)])
+    stated, means = [], []
+    for block in values.reshape(-1, 4):
+        sums = Accumulator.before(state)
+        sums.outputs = [{"contact_load_ratio": float(value), "rolling_resistance": 0.0} for value in block]
+        stated.append(sums.spread(alike)["contact_load_ratio"])
+        means.append(block.mean())
+    assert np.sqrt(np.mean(np.square(stated))) == approx(np.std(means), rel=0.05)
