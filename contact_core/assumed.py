@@ -15,19 +15,22 @@ from .errors import ContactError
 from .film import Regression
 from .scene import Case, OperatingPoint, Scene
 from .scene.intervals import Interval, applicable, replaced
-from .state import initial_state
+from .state import ContactState, initial_state
 
 WEAR = "wear_depth"  # of both bodies together: their wear rate now
-OUTPUTS = ("friction_coefficient", "h_c", "contact_load_ratio", WEAR)
-HEADS = ("assumed", "between", "friction", "h_c", "W_c", "wear rate")
+TRIBOFILM = "tribofilm"  # of both bodies together: their growth now
+RATES = (WEAR, TRIBOFILM)  # outputs whose half widths are relative, those of their rates
+OUTPUTS = ("friction_coefficient", "h_c", "contact_load_ratio", *RATES)
+HEADS = ("assumed", "between", "friction", "h_c", "W_c", "wear rate", "tribofilm")
 _FILM = "h_c"
-# half widths that are told: of friction and shares, of films [m], of wear relative
-LEAST = {"friction_coefficient": 1e-4, _FILM: 1e-10, "contact_load_ratio": 1e-3, WEAR: 1e-3}
-_UNKNOWN = 1e3  # relative, of wear where nothing touches but may
+# half widths that are told: of friction and shares, of films [m], of rates relative
+LEAST = {"friction_coefficient": 1e-4, _FILM: 1e-10, "contact_load_ratio": 1e-3, WEAR: 1e-3, TRIBOFILM: 1e-3}
+_UNKNOWN = 1e3  # relative, of what nothing makes now but may
+_MOMENT = 1e-3  # s: in which a tribofilm is seen to grow
 
 
 class Assumption(NamedTuple):
-    """Half width of an answer by what a scene assumes: in the unit of the answer, of wear relative."""
+    """Half width of an answer by what a scene assumes: in the unit of the answer, of wear and tribofilm relative."""
 
     parts: Mapping[str, float]  # by the dotted key of what is assumed, the largest first
 
@@ -48,7 +51,7 @@ def assumed(scene: Scene, op: OperatingPoint) -> Mapping[str, Assumption]:
     here = _answers(case)
     parts: dict[str, dict[str, float]] = {name: {} for name in OUTPUTS}
     for interval in applicable(scene):
-        ends = [_answers_at(case, interval.key, end) for end in interval.ends(scene)]
+        ends = [_answers_at(case, end) for end in interval.ends(scene)]
         for name in OUTPUTS:
             half = max((_change(name, here[name], end[name]) for end in ends if end), default=0.0)
             if half > 0.0:
@@ -76,26 +79,38 @@ def text(output: str, half: float) -> str:
         return "-"
     if output == _FILM:
         return f"{1e9 * half:.2g} nm"
-    if output != WEAR:
+    if output not in RATES:
         return f"{half:.2g}"
     return f"{100.0 * half:.2g} %" if half < 1.0 else f"a factor of {1.0 + half:.2g}"
 
 
-def _answers_at(case: Case, key: str, value: float) -> dict[str, float] | None:
+def _answers_at(case: Case, values: Mapping[str, float]) -> dict[str, float] | None:
+    scene = case.scene
+    for key, value in values.items():
+        scene = replaced(scene, key, value)
     try:
-        return _answers(Case.bind(replaced(case.scene, key, value), case.op))
+        return _answers(Case.bind(scene, case.op))
     except ContactError:
         return None
 
 
 def _answers(case: Case) -> dict[str, float]:
-    outputs = regression.advance(case, initial_state(case.scene), 0.0)[1]
-    wear = outputs.wear_rate_1 + outputs.wear_rate_2
-    return {name: wear if name == WEAR else float(getattr(outputs, name)) for name in OUTPUTS}
+    state = initial_state(case.scene)
+    outputs = regression.advance(case, state, 0.0)[1]
+    rates = {WEAR: outputs.wear_rate_1 + outputs.wear_rate_2, TRIBOFILM: _growth(case, state)}
+    return {name: rates[name] if name in RATES else float(getattr(outputs, name)) for name in OUTPUTS}
+
+
+def _growth(case: Case, state: ContactState) -> float:
+    """Return how fast the tribofilms of both bodies grow together [m/s]."""
+    if case.scene.tribofilm.most_exposure == 0.0:  # nothing grows
+        return 0.0
+    soon = regression.advance(case, state, _MOMENT)[1]
+    return float(soon.tribofilm_grown_1 + soon.tribofilm_grown_2) / _MOMENT
 
 
 def _change(name: str, here: float, there: float) -> float:
     change = abs(there - here)
-    if name != WEAR or change == 0.0:
+    if name not in RATES or change == 0.0:
         return change
     return min(change / here, _UNKNOWN) if here > 0.0 else _UNKNOWN

@@ -240,7 +240,7 @@ class Traction:
 
     def misfit(self, law: FittedSharing) -> Array:
         """Logarithm of the law's friction over the solved one."""
-        return np.log(law.oil_kept * self.friction(self._raised(law)) / self.solved)
+        return np.log(law.kept(self.table.flattening) * self.friction(self._raised(law)) / self.solved)
 
     def half_widths(self, law: FittedSharing) -> Array:
         """Half widths of the oil's friction that the law states, relative."""

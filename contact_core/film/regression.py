@@ -28,15 +28,15 @@ class Regression:
 
     friction: ClassVar[Equations] = Equations(
         (
-            "F = −(μ W_c W + c ⟨τ_{oil}⟩ A_{oil}) (u_1 − u_2)/|u_1 − u_2|",
+            "F = −(μ W_c W + κ ⟨τ_{oil}⟩ A_{oil}) (u_1 − u_2)/|u_1 − u_2|,   κ = c^{exp[(0.45 − s)/1.15]}",
             "τ_N = η(p, T) |u_1 − u_2|/h_c",
             "A_{oil} = (1 − W_c) A_H/k,   p = k p_H",
             "k = [1 + K t^{−w} exp(−d Z t^{−q})] [(1 + S h_s R_x/a^2) (1 + S h_s R_y/b^2)]^{−1/2},   t = s/0.2",
         ),
         "⟨τ⟩ is the mean stress of the oil under k times the Hertz pressure, on the share 1/k of the Hertz area A H: "
         "between rough bodies oil carries load in spots; a thick film carries it on a larger area, of lines along x "
-        "only. No pressure exceeds the hardness. c: uneven pressure shears less than even pressure, for the limiting "
-        "stress cuts its peaks.",
+        "only. No pressure exceeds the hardness. κ: uneven pressure shears less than even pressure, for the limiting "
+        "stress cuts its peaks; between smooth bodies it is even.",
         title="Friction",
         symbols={
             "c": "constant of load sharing, film.sharing.oil_kept [1]",

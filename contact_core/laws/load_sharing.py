@@ -11,6 +11,7 @@ from .equations import Equations
 _FLATTENING = 0.2  # reference of the constants: about that of the shipped circles
 # films and flattening beyond which no solid carries anything: no power of them may overflow
 _THICKEST, _MOST = 1e30, 1e60
+_AMID, _EVENED = 0.45, 1.15  # flattening; by solved contacts with flattenings of 0.14 to 23, and smooth ones
 _FURTHER = 1.25  # times the largest numbers of the fit, beyond which they count no more
 _YIELDING = 10.0  # hardness over the pressure at which asperities begin to yield, chosen
 _ALL_WAVES = 2.3  # their rms slope over that of the longest wave alone, see `asperity_layer`
@@ -320,6 +321,13 @@ class FittedSharing:
         fall = self.oil_pressure_decay * clearance * steep**self.oil_pressure_power
         raised = 1.0 + self.oil_pressure_excess * steep**self.oil_steepness * exp(-fall)
         return raised / sqrt((1.0 + self.oil_spread * thick_x) * (1.0 + self.oil_spread * thick_y))
+
+    def kept(self, flattening: Numbers) -> Numbers:
+        """Return the friction of oil over that under even pressure.
+
+        It is `oil_kept` amid the flattenings of the fit; what is pressed flat leaves the pressure even.
+        """
+        return self.oil_kept ** exp((_AMID - flattening) / _EVENED)
 
     def covers(
         self, clearance: float, layers: float, flattening: float, below: float, slip: float, pressed: float

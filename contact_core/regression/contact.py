@@ -17,7 +17,7 @@ from ..scene import Case
 from .load_sharing import UNFITTED, Fit, Parted, Shares, Surfaces, parted, shared, surfaces_of
 from .oil import Law, MeanHeat, oil_shear
 from .smooth_film import KELVIN, LIGHTEST, SLOWEST, STEP, SmoothFilm, smooth_film
-from .surfaces import Tribofilms, composite_roughness, mean_cover, regression_film
+from .surfaces import Tribofilms, composite_roughness, mean_cover
 
 Array = NDArray[np.float64]
 
@@ -213,10 +213,11 @@ def _point(
 def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[list[float], MeanHeat | None]:
     """Return the friction of the oil [N] at the points, and the heat where it warms the film."""
     scene, op, hertz = case.scene, case.op, case.unit_hertz
-    oily, pressures, rates, grips = np.array([(p.oily, p.oil_pressure, p.oil_rate, p.grip) for p in points]).T
+    kept, pressures, rates, grips = np.array(
+        [(p.oily * p.shares.kept, p.oil_pressure, p.oil_rate, p.grip) for p in points]
+    ).T
     warmer, count = _WARMER[: len(points)], len(points)
     start = op.inlet_temperature + warmer
-    kept = oily * regression_film(scene).sharing.oil_kept
 
     def friction(warm: Array) -> Array:
         return kept * oil_shear(scene, hertz, pressures, rates, grips, warm)

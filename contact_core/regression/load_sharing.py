@@ -44,6 +44,7 @@ class Shares(NamedTuple):
     load: float  # contact_load_ratio
     area: float  # contact_area_ratio of elastic solids
     raised: float  # pressure of the oil over Hertz's
+    kept: float  # friction of the oil over that under even pressure
 
 
 def surfaces_of(case: Case, tribofilms: Tribofilms) -> Surfaces:
@@ -124,4 +125,5 @@ def shared(case: Case, parted: Parted, slip: float) -> Shares:
     share = sharing.load_ratio_at(slip, parted.parting)
     gap = max(parted.rough * parted.films.ratio(share), case.scene.film.floor)
     area = parted.dry_area * share**sharing.area_exponent
-    return Shares(parted.fit._replace(slip=slip), gap, share, area, parted.raised)
+    kept = float(sharing.kept(parted.fit.flattening))
+    return Shares(parted.fit._replace(slip=slip), gap, share, area, parted.raised, kept)

@@ -19,10 +19,25 @@ USUAL = "mineral"
 _OF_SECANT, _SECANT_TO = 0.956, 0.2  # [1], [GPa]
 # K: of the limiting coefficient; amid the temperatures of use; of the Eyring stress
 _COLD, _WARM, _HOT = 313.15, 343.15, 353.15
-# of mineral oils whose viscosity falls faster with temperature than paraffinic ones': fitted to N100 and eight oils of
-# medium viscosity index of Stachowiak & Batchelor, Engineering Tribology, table 2.3, within 15 %
-_PARAFFINIC, _RISE, _NAPHTHENIC = 1.25, 1.9, 1.3
 _ROELANDS = 138.0  # K, of his slope index
+
+
+@dataclass(frozen=True)
+class Steep:
+    """What oils of a family have whose viscosity falls fast with temperature, by Roelands' slope index."""
+
+    index: float  # from which on an oil is steep
+    rise: float  # of the coefficient over the usual one, with the index
+    most: float  # of the coefficient over the usual one
+    bend: float  # over the usual one, of the steepest
+
+    def by(self, sheet: AstmD341) -> tuple[float, float]:
+        """Return coefficient and bend of an oil over the usual ones."""
+        hot = 373.15
+        fall = float(sheet.log_viscosity(_COLD) / sheet.log_viscosity(hot))
+        index = math.log(fall) / math.log((hot - _ROELANDS) / (_COLD - _ROELANDS))
+        more = min(max(1.0 + self.rise * (index - self.index), 1.0), self.most)
+        return more, 1.0 - (1.0 - self.bend) * (more - 1.0) / (self.most - 1.0)
 
 
 @dataclass(frozen=True)
@@ -43,18 +58,17 @@ class Base:
     limiting_fall_interval: tuple[float, float]
     conductivity_rise: float  # with pressure [1/GPa]
     conductivity_bend: float  # [1/GPa]
+    steep: Steep | None = None
 
     def oil(self, sheet: AstmD341) -> AstmD341:
         """Return the oil of a data sheet with this family's pressure coefficient and bends.
 
         Gold's coefficient is taken for the secant of ln(viscosity) from 0 to 0.2 GPa at 70 degC, from which the
-        modulus equation gives the slope at p = 0. Mineral oils that thin faster with heat have up to
-        1.3 times as much, and less bend.
+        modulus equation gives the slope at p = 0. Oils that thin faster with heat have more, and less bend.
         """
         warm = float(sheet(0.0, _WARM)) / float(sheet.density_at(_WARM))
-        more = self._naphthenic(sheet)
-        straight = 1.0 - (more - 1.0) / (_NAPHTHENIC - 1.0)
-        bent = replace(sheet, bend_40=straight * self.bend_40, bend_100=straight * self.bend_100)
+        more, bend = self.steep.by(sheet) if self.steep else (1.0, 1.0)
+        bent = replace(sheet, bend_40=bend * self.bend_40, bend_100=bend * self.bend_100)
         secant = more * self.gold * (1e6 * warm) ** self.gold_exponent / _OF_SECANT
         slope = 1.0 / (1.0 / secant - 0.5 * (bent.bend_40 + bent.bend_100) * _SECANT_TO)
         reference = sheet.log_viscosity(sheet.reference_temperature) / sheet.log_viscosity(_WARM)
@@ -69,21 +83,13 @@ class Base:
         secant = 1e-9 * math.log(float(oil(1e9, _HOT)) / float(oil(0.0, _HOT)))
         return 2.0 * self.limiting_coefficient * math.exp(-self.limiting_fall * (_HOT - _COLD)) / secant
 
-    def _naphthenic(self, sheet: AstmD341) -> float:
-        """Return by what the coefficient is more than Gold's, by Roelands' slope index of the viscosity."""
-        if self is not _bases()[USUAL]:
-            return 1.0
-        hot = 373.15
-        fall = float(sheet.log_viscosity(_COLD) / sheet.log_viscosity(hot))
-        slope_index = math.log(fall) / math.log((hot - _ROELANDS) / (_COLD - _ROELANDS))
-        return min(max(1.0 + _RISE * (slope_index - _PARAFFINIC), 1.0), _NAPHTHENIC)
-
 
 @lru_cache(maxsize=1)
 def _bases() -> dict[str, Base]:
     text = (files("contact_core") / "data" / "bases.toml").read_text("utf-8")
     tables: dict[str, dict[str, Any]] = tomllib.loads(text)
-    return {name: Base(**values) for name, values in tables.items()}
+    steep = {name: {"steep": Steep(**table["steep"])} for name, table in tables.items() if "steep" in table}
+    return {name: Base(**table | steep.get(name, {})) for name, table in tables.items()}
 
 
 def base_of(name: Any) -> Base:

@@ -69,8 +69,9 @@ _LENGTH = 8e-6  # m, of roughness: as in the shipped scenes
 _HIGHEST = 1e-7  # m, microroughness that a scene which gives none may have, at most
 _NO_LAYER = "lumped"  # film.criterion that microroughness does not go with
 _REFERENCE = "40 degC"
-# relative half widths of a family's bends, its Eyring stress, and the rise of its conductivity
+# relative half widths of a family's bends, its Eyring stress, and the rise and bend of its conductivity
 _BEND, _STRESS, _RISE = 0.2, 0.35, 0.2
+_WAVES = 0.5  # relative half width of the longest wave of a finish's microroughness, as in the shipped scenes
 _ROW, _STEADY = "60 s", "60 s"
 _NAME = "contact"
 
@@ -248,8 +249,17 @@ def _surfaces(filling: _Filling) -> None:
             filling.intervals.setdefault(f"{part}.microroughness.rms", ("0 nm", most))
 
 
+def _refuse_beside_set(table: Mapping[str, Any], said: str) -> None:
+    """Raise SceneError if a table takes a set: that gives all that something beside it would."""
+    if "set" in table:
+        raise SceneError(f"{said} has no effect beside set = '{table['set']}', which gives all of it. Leave one out.")
+
+
 def _finish(filling: _Filling, part: str) -> None:
     """Set what the finish of a surface says, but for what the scene says itself."""
+    measured, below = filling.has(f"{part}.heights"), filling.has(f"{part}.microroughness")
+    if measured and below:
+        _refuse_beside_set(filling.table[part], f"{part}.finish")
     said = filling.taken(part)
     lay = said.get("lay")
     if "finish" not in said or lay not in (None, *LAYS):
@@ -265,6 +275,8 @@ def _finish(filling: _Filling, part: str) -> None:
     why = f"of a {name} surface: data/finishes.toml"
     filling.give(f"{part}.rq", own["rq"], why, ends=ends["rq"])
     rq, own_rq = filling.number(f"{part}.rq", "m") or 0.0, parse(own["rq"], "m", "rq")
+    if rq == 0.0 and not measured and not below:  # smooth
+        return
     longest = LONGEST
     if filling.get(f"{part}.model") in (None, "gaussian"):
         length = max(parse(own["correlation_length"], "m", "correlation_length"), LENGTH_PER_RQ * rq)
@@ -279,9 +291,9 @@ def _finish(filling: _Filling, part: str) -> None:
         longest = longest_below(min(found for found in lengths if found))
     if not filling.layered:
         return
-    below = parse(own["microroughness"]["rms"], "m", "rms") * part_below(rq, own_rq) * math.sqrt(longest / LONGEST)
-    filling.give(f"{part}.microroughness.rms", f"{1e9 * below:.3g} nm", why, ends=ends["microroughness.rms"])
-    filling.give(f"{part}.microroughness.longest", f"{1e6 * longest:.3g} um", why)
+    rms = parse(own["microroughness"]["rms"], "m", "rms") * part_below(rq, own_rq) * math.sqrt(longest / LONGEST)
+    filling.give(f"{part}.microroughness.rms", f"{1e9 * rms:.3g} nm", why, ends=ends["microroughness.rms"])
+    filling.give(f"{part}.microroughness.longest", f"{1e6 * longest:.3g} um", why, ends=_either_way(_WAVES))
 
 
 def _oil(filling: _Filling) -> None:
@@ -295,6 +307,7 @@ def _oil(filling: _Filling) -> None:
             raise SceneError(f"lubricant.base = '{named}' goes with the data sheet of an oil: give {DATA_SHEET}.")
         return
     filling.give(f"{oil}.reference_temperature", _REFERENCE, "temperature of the pressure coefficient")
+    before = len(filling.assumed)
     law = _of_sheet(filling, oil, base)
     if law is None:  # reading the data sheet will be refused
         filling.give(f"{oil}.pressure_coefficient", "0 GPa^-1", family)
@@ -320,9 +333,10 @@ def _oil(filling: _Filling) -> None:
     filling.give_law("lubricant.rheology", rheology, f"{family}; the stress is assumed", ends)
     conductivities = [f"{end:g} W/(m K)" for end in (base.conductivity, *base.conductivity_interval)]
     filling.give("lubricant.conductivity", conductivities[0], family, ends=(conductivities[1], conductivities[2]))
-    rise = f"{base.conductivity_rise:g} GPa^-1"
-    filling.give("lubricant.conductivity_rise", rise, family, ends=_either_way(_RISE))
-    filling.give("lubricant.conductivity_bend", f"{base.conductivity_bend:g} GPa^-1", family)
+    for name in ("conductivity_rise", "conductivity_bend"):
+        filling.give(f"lubricant.{name}", f"{getattr(base, name):g} GPa^-1", family, ends=_either_way(_RISE))
+    if named and len(filling.assumed) == before:
+        _refuse_beside_set(filling.table["lubricant"], f"lubricant.base = '{named}'")
 
 
 def _either_way(share: float) -> Ends:

@@ -3,9 +3,11 @@
     [intervals]
     "surface_1.correlation_length" = ["4 um", "16 um"]
     "boundary_friction.bare" = ["-20 %", "+15 %"]  # of the scene's own value
+    "tribofilm.activation_energy, tribofilm.prefactor" = [["53 kJ/mol", "0.3 m/s"], ["80 kJ/mol", "2890 m/s"]]
 
-Named sets and defaults bring their own; a value that is set beside them has none unless its scene gives one. What the
-intervals are worth in friction, film and wear: `contact_core.assumed`.
+Values that were found together go together: all are at their first ends, or all at their last. Named sets and defaults
+bring their own; a value that is set beside them has none unless its scene gives one. What the intervals are worth in
+friction, film, wear and tribofilm: `contact_core.assumed`.
 """
 
 from collections.abc import Iterator, Mapping
@@ -15,28 +17,41 @@ from typing import Any
 
 from ..errors import SceneError
 from ..laws.asperity_layer import AsperityLayer
+from ..quantities import out_of_range
 from .toml import file_of_set, flat, models_of, read_table
 from .units import parse
 
 Ends = tuple[Any, Any]  # least and largest value, as in a scene
 _LONGEST = 4e-6  # m: of waves below the grid where a scene has none
+_AND = ", "
+_ROUNDED = 0.02  # of an interval: so far ends are rounded
+_GIVEN = "operation."  # keys of the duty: nobody assumes them
 
 
 @dataclass(frozen=True)
 class Interval:
     """The least and the largest value of what a scene assumes, as text with a unit or as a percentage of its value."""
 
-    key: str  # dotted
+    key: str  # dotted; of values that go together all, with `_AND` between them as between their ends
     least: str
     most: str
 
-    def ends(self, scene: Any) -> tuple[float, float]:
-        """Return least and largest value in SI for a scene. Raises SceneError if they cannot be."""
-        value, unit = value_of(scene, self.key)
-        least, most = (_end(text, value, unit, self.name) for text in (self.least, self.most))
-        if least > most:
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """The dotted keys of the values."""
+        return tuple(self.key.split(_AND))
+
+    def ends(self, scene: Any) -> tuple[dict[str, float], dict[str, float]]:
+        """Return least and largest values [SI] by key for a scene. Raises SceneError if they cannot be."""
+        least, most = (self._end(scene, texts.split(_AND)) for texts in (self.least, self.most))
+        if least[self.keys[0]] > most[self.keys[0]]:
             raise SceneError(f"{self.name} = ['{self.least}', '{self.most}']: the least comes first. Exchange them.")
         return least, most
+
+    def _end(self, scene: Any, texts: list[str]) -> dict[str, float]:
+        if len(texts) != len(self.keys):
+            raise SceneError(f"{self.name} has {len(self.keys)} values, but an end of it {len(texts)}: '{texts}'.")
+        return {key: _end(text, *value_of(scene, key), self.name) for key, text in zip(self.keys, texts, strict=True)}
 
     @property
     def name(self) -> str:
@@ -46,13 +61,14 @@ class Interval:
 
 def listed(intervals: Mapping[str, Ends]) -> list[dict[str, str]]:
     """Return tables of intervals, as records are built from. Raises SceneError for what is none."""
-    return [_table(key, ends) for key, ends in intervals.items()]
+    return [_table(key, ends) for key, ends in flat(intervals).items()]
 
 
 def _table(key: str, ends: Any) -> dict[str, str]:
     if not isinstance(ends, list | tuple) or len(ends) != 2:
         raise SceneError(f"intervals.\"{key}\" = {ends!r} must be the least and the largest value, ['4 um', '16 um'].")
-    return {"key": key, "least": str(ends[0]), "most": str(ends[1])}
+    least, most = (_AND.join(map(str, end)) if isinstance(end, list | tuple) else str(end) for end in ends)
+    return {"key": _AND.join(name.strip() for name in key.split(",")), "least": least, "most": most}
 
 
 def of_sets(table: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, Ends]]:
@@ -68,14 +84,15 @@ def of_sets(table: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, End
 def _of_set(chosen: str, path: str, beside: Mapping[str, Any]) -> Iterator[tuple[str, Ends]]:
     file, name = file_of_set(chosen, path)
     sets = {key.lower(): value for key, value in read_table(file, "set").items() if isinstance(value, Mapping)}
-    for key, ends in sets.get(name, {}).get("intervals", {}).items():
-        if key.startswith(f"{path}.") and key not in beside:
+    for key, ends in flat(sets.get(name, {}).get("intervals", {})).items():
+        keys = [each.strip() for each in key.split(",")]
+        if all(each.startswith(f"{path}.") and each not in beside for each in keys):
             yield key, ends
 
 
 def applicable(scene: Any) -> tuple[Interval, ...]:
     """Return the intervals of a scene but for those of laws that others have taken the place of."""
-    return tuple(each for each in scene.intervals if not _of_another_law(scene, each.key))
+    return tuple(i for i in scene.intervals if not any(_of_another_law(scene, key) for key in i.keys))
 
 
 def _of_another_law(scene: Any, key: str) -> bool:
@@ -91,9 +108,33 @@ def errors(scene: Any) -> Iterator[str]:
     """Yield sentences on intervals that cannot be."""
     for interval in applicable(scene):
         try:
-            interval.ends(scene)
+            for end in interval.ends(scene):
+                yield from (f"{interval.name}: {said}" for key in end for said in _out_of_range(scene, key, end[key]))
         except SceneError as error:
             yield str(error)
+
+
+def _out_of_range(record: Any, key: str, value: float) -> Iterator[str]:
+    """Yield sentences on an end [SI] that the value of a dotted key may not be."""
+    *path, last = key.split(".")
+    for name in path:
+        record = _part(record, name)
+    yield from (said for said in out_of_range(replace(record, **{last: value}), ".".join(path)) if key in said)
+
+
+def doubts(scene: Any) -> Iterator[str]:
+    """Yield sentences on intervals that do not hold the value of their scene."""
+    for interval in applicable(scene):
+        ends = interval.ends(scene)
+        for key in interval.keys:
+            (value, unit), (least, most) = value_of(scene, key), sorted(end[key] for end in ends)
+            slack = _ROUNDED * (most - least)
+            if not least - slack <= value <= most + slack:
+                given = f"{value:.4g} {unit}".rstrip()
+                yield (
+                    f"{interval.name} = ['{interval.least}', '{interval.most}'] does not hold {key} = {given}. "
+                    "Which of the two is right?"
+                )
 
 
 def replaced(scene: Any, key: str, value: float) -> Any:
@@ -109,6 +150,11 @@ def _part(record: Any, name: str) -> Any:
 
 def value_of(record: Any, key: str) -> tuple[float, str]:
     """Return the value [SI] of a dotted key and its unit."""
+    if key.startswith(_GIVEN):
+        raise SceneError(
+            f'intervals."{key}": what the contact is run at is given, not assumed, so it has none. `tribofmu sweep` '
+            "varies it."
+        )
     *path, last = key.split(".")
     for name in path:
         record = _part(record, name)

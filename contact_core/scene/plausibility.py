@@ -5,6 +5,7 @@ Their answers would come without a warning and mean nothing. A command asks them
 
 from collections.abc import Iterable, Iterator
 
+from . import intervals
 from .checks import duty_points
 from .fields import SceneFields
 from .operation import OperatingPoint
@@ -27,7 +28,8 @@ def doubts(scene: SceneFields, points: Iterable[Named] | None = None) -> list[st
         first.setdefault(point, name)
     named = [(name, point) for point, name in first.items()]
     motions = [said for name, point in named if (said := _of_motion(name, point))]
-    return [*of_roughness(scene), *_first(motions), *_first([*_of_films(scene, named)])]
+    of_films = _first([*_of_films(scene, named)])
+    return [*of_roughness(scene), *_first(motions), *of_films, *intervals.doubts(scene)]
 
 
 def _first(found: list[str]) -> list[str]:

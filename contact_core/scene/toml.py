@@ -95,7 +95,7 @@ def given(source: str | Path, overrides: Mapping[str, str]) -> tuple[dict[str, A
         else:
             override(table, key, located({last: value}, *reversed(folders))[last])
     if isinstance(table.get("intervals"), Mapping):
-        table["intervals"] = _still_assumed(table["intervals"], changes)
+        table["intervals"] = _still_assumed(flat(table["intervals"]), changes)
     return table, folders
 
 
@@ -105,7 +105,11 @@ def _still_assumed(intervals: Mapping[str, Any], changes: Iterable[str]) -> dict
     Another model keeps the values that it has in common with the one before.
     """
     roots = [key.removesuffix(".set") for key in changes]
-    return {k: ends for k, ends in intervals.items() if not any(f"{k}.".startswith(f"{root}.") for root in roots)}
+
+    def left(keys: str) -> bool:
+        return not any(f"{key.strip()}.".startswith(f"{root}.") for key in keys.split(",") for root in roots)
+
+    return {keys: ends for keys, ends in intervals.items() if left(keys)}
 
 
 def _with_file(surface: Mapping[str, Any], file: str, folders: tuple[Path, ...]) -> dict[str, Any]:

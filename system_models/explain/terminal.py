@@ -182,7 +182,7 @@ def _assumed(rows: Sequence[tuple[str, ...]], width: int) -> Iterator[str]:
     for key, between, *worth in rows:
         cells = [cell.ljust(wide) for cell, wide in zip(worth, wides[2:], strict=True)]
         if split:
-            yield f"  {key}{between and f': {between}'}"
+            yield from _wrapped(f"{key}{between and f': {between}'}", width, "  ", "    ")
             yield f"      {'  '.join(cells)}"
         else:
             yield "  " + "  ".join([key.ljust(wides[0]), between.ljust(wides[1]), *cells])

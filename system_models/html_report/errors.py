@@ -92,7 +92,8 @@ def _assumed(run: Run) -> Iterator[str]:
     yield heading("Beside them: what the scene assumes")
     yield paragraph(
         "Each value may lie anywhere between the two that are given. What that makes of friction, film, load on the "
-        "solids and wear rate at the scene's own operating point, on new surfaces, by the regression level."
+        "solids, wear rate and growth of tribofilm at the scene's own operating point, on new surfaces, by the "
+        "regression level."
     )
     yield table(list(HEADS), [list(row) for row in rows], "numbers")
 

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from contact_core import advance, initial_state
-from contact_core.assumed import LEAST, OUTPUTS, WEAR, Assumption, text
+from contact_core.assumed import LEAST, OUTPUTS, RATES, Assumption, text
 from contact_core.assumed import assumed as assumed_worth
 from contact_core.errors import ContactError
 from contact_core.film import Regression
@@ -20,7 +20,10 @@ from contact_core.scene.intervals import replaced
 
 from ..store.results import ASSUMED
 
-_WORDS = {"friction_coefficient": "friction", "h_c": "film", "contact_load_ratio": "W_c", "wear_depth": "wear"}
+_WORDS = {
+    "friction_coefficient": "friction", "h_c": "film", "contact_load_ratio": "W_c", "wear_depth": "wear",
+    "tribofilm": "tribofilm",
+}  # fmt: skip
 _MUCH, _MOST = 0.3, 3  # share of a half width from which on its cause is named, and how many are
 ATTRIBUTE = "assumed_json"  # of a result: key, value, where it comes from, kind of each
 
@@ -61,7 +64,7 @@ def with_half_widths(dataset: xr.Dataset, scene: Scene) -> xr.Dataset:
         for name in (output, f"{output}_1", f"{output}_2"):
             if name in dataset.data_vars:
                 variable = dataset.variables[name]
-                half = halved * np.abs(variable.values) if output == WEAR else halved
+                half = halved * np.abs(variable.values) if output in RATES else halved
                 text = f"half width of {name} by what the scene assumes"
                 attributes = {"units": variable.attrs.get("units", "1"), "long_name": text}
                 halves[f"{name}{ASSUMED}"] = (variable.dims, half, attributes)
@@ -90,7 +93,7 @@ def of_microroughness(case: Case, bare: Sequence[str]) -> str:
     """
     scene, op = case.scene, case.op
     lacking = {f"{surface}.microroughness.rms" for surface in bare}
-    worth = {i.key: i.ends(scene)[1] for i in scene.intervals if i.key in lacking}
+    worth = {key: i.ends(scene)[1][key] for i in scene.intervals for key in i.keys if key in lacking}
     if not worth:
         return ""
     fast = scene.at_level(Regression.name)

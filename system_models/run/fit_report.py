@@ -179,17 +179,32 @@ def set_of(fit: Fit, name: str) -> str:
         },
         "scatter": {n: scatter_of(fit, g) for g, n in enumerate(fit.measured.quantities)},
     }
-    closed = {
-        c.key.removeprefix("tribofilm."): [f"{c.at(end)!r} {c.unit}".rstrip() for end in (limits.low, limits.high)]
-        for c, limits in zip(fit.constants, fit.estimate.limits, strict=True)
-        if limits.low is not None and limits.high is not None
-    }
     parts = dict.fromkeys(c.key.partition(".")[0] for c in fit.constants)
     text = [f'# A scene uses it by [{part}] set = "{name}.toml:{name}".' for part in parts]
     tables = {part: unbuild(getattr(scene, part)) for part in parts}
-    return (
-        "\n".join([*text, "", *_toml({"source": source, **tables, "interval": closed, "fit": described}, name)]) + "\n"
-    )
+    values = {"source": source, **tables, "intervals": _intervals(fit), "fit": described}
+    return "\n".join([*text, "", *_toml(values, name)]) + "\n"
+
+
+def _intervals(fit: Fit) -> dict[str, Any]:
+    """Return the intervals of a set's constants whose limits are known, as a scene has them.
+
+    Fitted constants are off together: each interval moves a constant by what those before it leave open, and those
+    after it along. They are the columns of Cholesky's root of the covariance, which add as if they were independent.
+    """
+    limits = fit.estimate.limits
+    closed = [i for i, limit in enumerate(limits) if limit.low is not None and limit.high is not None]
+    root = fit.estimate.quantile * np.linalg.cholesky(fit.estimate.covariance[np.ix_(closed, closed)])
+    found = {}
+    for j in range(len(closed)):
+        moved = [(fit.constants[i], fit.estimate.shares[i], root[k, j]) for k, i in enumerate(closed) if k >= j]
+        ends = [[_text(c, at + way * by) for c, at, by in moved] for way in (-1, 1)]
+        found[", ".join(c.key for c, _, _ in moved)] = ends if len(moved) > 1 else [end[0] for end in ends]
+    return found
+
+
+def _text(constant: Constant, share: float) -> str:
+    return f"{constant.at(min(max(float(share), 0.0), 1.0))!r} {constant.unit}".rstrip()
 
 
 def _toml(values: Mapping[str, Any], path: str) -> Iterator[str]:

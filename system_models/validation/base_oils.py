@@ -36,8 +36,8 @@ COMPARISON = Comparison(
     Kind.MEASURED,
     "What a scene with `base` takes where it gives no coefficient. The bends of mineral oils are those of FVA 3 and "
     "M100, that of polyalphaolefins PAO100's; the rise with the fall of viscosity was fitted to N100 and the oils of "
-    "medium index. Nothing was fitted to HLP 32, the oils of high index and the copolymer. Stated error: the family's "
-    "interval.",
+    "medium index. Nothing was fitted to HLP 32, MIL-L-23699, the oils of high index and the copolymer. Stated "
+    "error: the family's interval.",
     "Wingertszahn et al. 2023, doi:10.3390/lubricants11090369; Arana, Larranaga & Ulacia 2019, "
     "doi:10.1177/1350650118778655; Stachowiak & Batchelor, Engineering Tribology, table 2.3",
     run,

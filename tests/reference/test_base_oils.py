@@ -36,6 +36,15 @@ def test_each_familys_interval_covers_the_oils_that_were_measured():
     assert len(tenth) > 0.2 * len(run().rows)
 
 
+@pytest.mark.parametrize(
+    ("at_40", "at_100", "density", "coefficient"), [(208.4, 19.89, 963.0, 14.4), (27.45, 4.383, 986.0, 16.6)]
+)
+def test_esters_that_thin_fast_with_heat_have_more(at_40, at_100, density, coefficient):
+    """Castor oil and di(2-ethylhexyl) phthalate at 60 degC, Stachowiak & Batchelor, table 2.3 (from memory)."""
+    sheet = AstmD341(1e-6 * at_40, 1e-6 * at_100, density, 0.0, 333.15)
+    assert base_of("ester").oil(sheet).pressure_coefficient == approx(1e-9 * coefficient, rel=0.1)
+
+
 @pytest.mark.parametrize("family", FAMILIES)
 def test_a_scene_takes_what_its_family_gives(family):
     oil = scene(family.upper()).lubricant

@@ -25,6 +25,7 @@ FACTS = {
     "operation": {"load": "50 N", "speed_1": "0.125 m/s", "speed_2": "0.075 m/s", "temperature": "100 degC"},
 }
 
+SMOOTH = {"surface_1": {"rq": "0 nm"}, "surface_2": {"rq": "0 nm"}}
 HAND = (("10 nm", "2 nm"), ("25 nm", "5 nm"))
 
 
@@ -44,11 +45,12 @@ def test_a_finish_gives_roughness_length_and_microroughness_with_intervals(name)
     assert surface.microroughness.rms == approx(parse(own["microroughness"]["rms"], "m", ""), rel=0.01)
     assert found.warnings() == []  # no wave counts twice
     for key in ("rq", "correlation_length", "microroughness.rms"):
-        least, most = intervals[f"surface_1.{key}"].ends(found)
+        least, most = (end[f"surface_1.{key}"] for end in intervals[f"surface_1.{key}"].ends(found))
         assert 0.0 < least < most
     for key, ends in own["intervals"].items():
         if key != "correlation_length":  # the grid, and 40 Rq, may lengthen it
-            assert intervals[f"surface_1.{key}"].ends(found) == approx([parse(e, "m", "") for e in ends], rel=0.02)
+            given = [end[f"surface_1.{key}"] for end in intervals[f"surface_1.{key}"].ends(found)]
+            assert given == approx([parse(e, "m", "") for e in ends], rel=0.02)
     assert set(ends_of_finish(name)) == {"rq", "correlation_length", "microroughness.rms"}
 
 
@@ -147,6 +149,17 @@ def test_a_finish_is_as_good_as_microroughness_by_hand():
         scene(*by_hand).surface_2.microroughness
         == scene(*({"rq": rq, "finish": "polished"} for rq, _ in HAND)).surface_2.microroughness
     )
+
+
+def test_a_smooth_body_has_no_roughness_below_the_grid_by_its_finish():
+    assert scene({"finish": "polished", "rq": "0 nm"}, {"rq": "0 nm"}).surface_1.microroughness is None
+
+
+def test_what_has_no_effect_beside_a_set_is_refused():
+    with pytest.raises(SceneError, match=r"surface_1\.finish has no effect beside set = 'nu206_roller'"):
+        scene({"finish": "ground", "set": "nu206_roller"}, {"rq": "0 nm"})
+    with pytest.raises(SceneError, match=r"lubricant\.base = 'pag' has no effect beside set = 'minr'"):
+        Scene.from_dict({**FACTS, **SMOOTH, "lubricant": {"base": "pag", "set": "minr"}})
 
 
 def test_beside_a_short_correlation_length_no_wave_counts_twice():

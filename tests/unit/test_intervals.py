@@ -1,6 +1,9 @@
 """Intervals of what a scene assumes, and what they are worth."""
 
+import re
+import tomllib
 from dataclasses import replace
+from importlib import resources
 
 import pytest
 from comparison import approx
@@ -8,7 +11,7 @@ from comparison import approx
 from contact_core import OperatingPoint, Scene, SceneError, advance, initial_state, shipped_scenes
 from contact_core.assumed import OUTPUTS, assumed
 from contact_core.scene.intervals import replaced, value_of
-from contact_core.scene.origins import origins
+from contact_core.scene.origins import Kind, Origin, comments_of, origins
 from contact_core.scene.toml import flat, read_table
 
 SHEET = {"viscosity_40": "31 mm2/s", "viscosity_100": "5.9 mm2/s", "density": "827 kg/m3"}
@@ -24,7 +27,7 @@ FACTS = {  # what a user knows of a ball on a disc
 
 
 def keys(scene):
-    return {interval.key for interval in scene.intervals}
+    return {key for interval in scene.intervals for key in interval.keys}
 
 
 def answer(scene, op):
@@ -33,13 +36,49 @@ def answer(scene, op):
 
 @pytest.mark.parametrize("name", shipped_scenes())
 def test_every_number_that_a_shipped_scene_or_its_sets_assume_has_an_interval(name):
-    scene = Scene.from_toml(name)
+    assert without_interval(name) == set()
+
+
+def without_interval(source):
+    """Return the numbers of a scene that have neither a source nor an interval."""
+    scene = Scene.from_toml(source)
     table = scene.to_dict()
     numbers = {key for key, value in flat(table).items() if not isinstance(value, list) and _is_number(value)}
-    words = origins(name, table)
-    assumed_keys = {key for key in numbers if words[key].word == "assumed"}
-    assert assumed_keys - keys(scene) == set()
-    assert len(assumed_keys) > 2
+    words = origins(source, table)
+    return {key for key in numbers if words[key].word == "assumed"} - keys(scene)
+
+
+SETS = ("lubricants", "solids", "tribofilms", "fatigue", "scuffing", "surfaces")
+DATA = resources.files("contact_core") / "data"
+
+
+@pytest.mark.parametrize("file", SETS)
+def test_every_number_of_a_set_has_a_source_or_an_interval(file):
+    assert of_sets_without((DATA / f"{file}.toml").read_text("utf-8")) == []
+
+
+def of_sets_without(text):
+    """Return the numbers of a file of sets that have neither a source nor an interval."""
+    said, missing = comments_of(text), []
+    for name, entry in tomllib.loads(text).items():
+        stated = {key.strip() for several in flat(entry.get("intervals", {})) for key in several.split(",")}
+        values = {key: table for key, table in entry.items() if key not in ("source", "intervals", "conditions")}
+        for key, value in flat(values).items():
+            of_table = said.source(f"{name}.{key}") or entry.get("source", "")
+            if _is_number(value) and Origin(Kind.SET, said.remark(f"{name}.{key}"), of_table).word == "assumed":
+                missing += [f"{name}.{key}"] if key not in stated else []
+    return missing
+
+
+def test_a_number_with_neither_source_nor_interval_is_found(tmp_path):
+    text = (DATA / "scenes" / "pin_on_disc.toml").read_text("utf-8")
+    bare = re.sub(r"^(\[geometry\]|radius_x = \S+ \S+).*$", r"\1", text, flags=re.M)
+    (tmp_path / "bare.toml").write_text(bare, "utf-8")
+    assert "geometry.radius_x" in without_interval(tmp_path / "bare.toml")
+    oils = (DATA / "lubricants.toml").read_text("utf-8")
+    assert of_sets_without(oils.replace('"lubricant.viscosity.bend_40" = ["-20 %", "+20 %"]\n', "")) == []
+    assert of_sets_without(oils.replace('"lubricant.conductivity_bend" = ["-20 %", "+20 %"]\n', "")) != []
+    assert of_sets_without(re.sub("^source = .*$", "", oils, flags=re.M)) != []
 
 
 def _is_number(value):
@@ -53,8 +92,9 @@ def test_intervals_hold_the_value_and_survive_a_scene_written_and_read(name):
     assert again.intervals == scene.intervals
     for interval in scene.intervals:
         least, most = interval.ends(scene)
-        assert least < most
-        assert least <= value_of(scene, interval.key)[0] <= most, interval.key
+        for key in interval.keys:
+            assert least[key] < most[key]
+            assert least[key] <= value_of(scene, key)[0] <= most[key], key
 
 
 def test_a_value_that_is_given_loses_the_interval_of_its_set_or_its_default():
@@ -75,6 +115,9 @@ def test_a_value_that_is_given_loses_the_interval_of_its_set_or_its_default():
         ("surface_1.rqq", ["1 nm", "2 nm"], ['intervals."surface_1.rqq" is no number', "tribofmu explain"]),
         ("surface_1.rq", ["2 nm", "1 nm"], ["the least comes first", "Exchange"]),
         ("surface_1.rq", ["1 nm", "2 N"], ["intervals.\"surface_1.rq\" = '2 N'", "wrong unit"]),
+        ("surface_1.rq", ["-1 nm", "2 nm"], ['intervals."surface_1.rq"', "surface_1.rq = -1e-09 m", "at least 0"]),
+        ("surface_1.rq, surface_2.rq", [["1 nm", "2 nm"], ["9 nm"]], ["has 2 values", "an end of it 1"]),
+        ("operation.load", ["40 N", "60 N"], ['intervals."operation.load"', "is given, not assumed", "sweep"]),
         ("surface_1.rq", "1 nm", ["intervals.\"surface_1.rq\" = '1 nm'", "least and the largest"]),
     ],
 )
@@ -120,3 +163,44 @@ def test_the_band_of_a_scene_without_microroughness_holds_the_answer_with_a_fini
     assert off <= worth.together
     assert off > 0.1 * worth.together
     assert "surface_2.microroughness.rms" in worth.parts
+
+
+def test_keys_of_intervals_may_stand_in_tables():
+    dotted = Scene.from_dict(FACTS | {"intervals": {"surface_1.rq": ["10 nm", "40 nm"]}})
+    assert Scene.from_dict(FACTS | {"intervals": {"surface_1": {"rq": ["10 nm", "40 nm"]}}}) == dotted
+
+
+def test_an_interval_that_does_not_hold_its_value_is_asked_back():
+    (said,) = Scene.from_dict(FACTS | {"intervals": {"boundary_friction.bare": [0.2, 0.3]}}).doubts()
+    for part in ("['0.2', '0.3']", "boundary_friction.bare = 0.13"):
+        assert part in said
+    assert all(Scene.from_toml(name).doubts() == [] for name in shipped_scenes())
+
+
+def test_values_that_go_together_are_tried_together():
+    """A prefactor with its barrier: of a film that was calibrated at 80 degC, little there and much elsewhere."""
+    together = "tribofilm.activation_energy, tribofilm.prefactor"
+    scene = Scene.from_toml("mtm_zddp", {"tribofilm.set": "gosvami"})
+    (interval,) = (each for each in scene.intervals if each.key == together)
+    op = scene.operation.point
+    worth = {}
+    for celsius in (60.0, 80.0):
+        at = replace(op, temperature=celsius + 273.15)
+        worth[celsius] = assumed(scene, at)["tribofilm"].parts[together]
+        here, *ends = (growth(each, at) for each in (scene, *(with_end(scene, end) for end in interval.ends(scene))))
+        assert worth[celsius] == approx(max(abs(end / here - 1.0) for end in ends), rel=1e-3)
+    assert worth[60.0] > 0.3 > 0.01 > worth[80.0]
+    given = Scene.from_toml("mtm_zddp", {"tribofilm.set": "gosvami", "tribofilm.prefactor": "1 m/s"})
+    assert "tribofilm.activation_energy" not in keys(given)
+
+
+def with_end(scene, end):
+    for key, value in end.items():
+        scene = replaced(scene, key, value)
+    return scene
+
+
+def growth(scene, op):
+    scene = scene.at_level("regression")
+    grown = advance(scene, op, initial_state(scene), 1e-3)[1]
+    return grown.tribofilm_grown_1 + grown.tribofilm_grown_2

@@ -53,7 +53,7 @@ def test_smooth_bodies_have_the_film_of_lines_and_the_oils_friction_under_hertzs
     spread = np.sqrt(1.0 + sharing.oil_spread * formula * scene.geometry.radius_x / hertz.a**2)  # of the load
     x = (np.arange(20_000) + 0.5) / 20_000
     pressure = hertz.pressure_max / spread * np.sqrt(1.0 - x**2)
-    shear = sharing.oil_kept * spread * scene.lubricant.viscosity(pressure, op.temperature) * 1e-9 / film
+    shear = spread * scene.lubricant.viscosity(pressure, op.temperature) * 1e-9 / film
     assert spread > 1.1
     assert found.contact_load_ratio < 1e-9
     assert found.h_c == approx(film, rel=5e-3)  # the floor adds to it

@@ -172,14 +172,29 @@ def test_a_thick_film_carries_all_and_its_friction_is_the_oils():
     assert spread > 1.01
     assert found.contact_load_ratio < 1e-18  # an exponential, never quite zero
     assert found.h_c == approx(film, rel=5e-3)  # the floor, a hundredth of it, adds a little
-    kept = sharing.oil_kept * hertz.area * spread
+    kept = hertz.area * spread  # all of it: nothing is rough
     assert found.friction_force == approx(-kept * float((2.0 * r * shear).mean()), rel=1e-6)
 
 
-def test_limited_oil_carries_what_uneven_pressure_keeps_of_its_coefficient_times_the_load_it_bears():
+def test_oil_between_smooth_bodies_rubs_as_the_solved_film():
+    settings = SMOOTH | {"heat": "none", "lubricant.set": "m100", "film.points": "65"}
+    settings |= {"tribofilm": "none", "wear": "none", "film.model": "deterministic"}
+    scene = Scene.from_toml("mtm_zddp", settings)
+    op = point(replace(scene.operation.point, temperature=333.15), 2.0, 0.1)
+    solved, mean = (now(each, op, initial_state(each)) for each in (scene, scene.at_level("regression")))
+    assert mean.friction_coefficient == approx(solved.friction_coefficient, rel=0.04)
+
+
+def test_pressure_is_the_evener_the_flatter_the_roughness_is_pressed():
+    sharing = Scene.from_toml("mtm_zddp", FAST).film.sharing
+    kept = [float(sharing.kept(s)) for s in (0.0, 0.45, 1.0, 3.0, math.inf)]
+    assert kept == sorted(kept) and kept[1] == approx(sharing.oil_kept, rel=1e-12) and kept[-1] == 1.0
+
+
+def test_limited_oil_between_smooth_bodies_carries_its_coefficient_times_the_load_it_bears():
     scene, state, op = fast(SMOOTH)
     found = now(scene, point(op, 0.5, 5.0), state)
-    limit = scene.lubricant.rheology.limiting_coefficient * scene.film.sharing.oil_kept
+    limit = scene.lubricant.rheology.limiting_coefficient
     assert found.friction_coefficient == approx(limit, rel=1e-2)
     assert found.friction_coefficient <= limit * (1.0 + 1e-3)
 

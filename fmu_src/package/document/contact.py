@@ -190,7 +190,8 @@ def assumptions(scene: Scene) -> Iterator[str]:
     """Yield the section on what the scene assumes."""
     yield paragraph(
         "Values that the scene assumes, the interval of each, and the half widths that these make of friction, film, "
-        "load on the solids and wear rate at the reference operating point, on new surfaces, by the regression level. "
+        "load on the solids, wear rate and growth of tribofilm at the reference operating point, on new surfaces, by "
+        "the regression level. "
         "They come beside the errors above."
     )
     try:
