@@ -10,6 +10,7 @@ from typing import Any
 from contact_core.errors import SceneError
 from contact_core.quantities import LEVELS, TABLE
 from contact_core.scene import OperatingPoint, Scene, with_values
+from contact_core.scene.intervals import Interval, replaced, spread
 from fmu_src.flavours import Flavour
 from fmu_src.native.program import own_radii
 from fmu_src.package.build import build as build_contact
@@ -71,6 +72,20 @@ class Assembly:
     schedule: Schedule
     settings: Mapping[str, Any]
     reported: Mapping[str, Any] = field(default_factory=dict)  # what only the report reads, by table of the file
+    intervals: tuple[Interval, ...] = ()  # of what is assumed, by "part.key" and "contact.key"
+
+    def ends(self, interval: Interval) -> list[tuple[str, tuple[float, float]]]:
+        """Return least and largest value in SI of each number of an interval, by key. Raises SceneError for none."""
+        records = {"contact": next(iter(self.contacts.values())).scene, **self.parts}
+        return [(key, replace(interval, key=key).ends(records)) for key in spread(records, interval.key)]
+
+    def with_value(self, key: str, value: float) -> "Assembly":
+        """Return the machine with another value [SI] of a dotted key of a part, or of all contacts' scenes."""
+        part, _, rest = key.partition(".")
+        if part != "contact":
+            return replace(self, parts={**self.parts, part: replaced(self.parts[part], rest, value)})
+        own = {name: replaced(contact.scene, rest, value) for name, contact in self.contacts.items()}
+        return replace(self, contacts={name: replace(self.contacts[name], scene=scene) for name, scene in own.items()})
 
     def outputs(self) -> list[str]:
         """Return the recorded variables: all outputs of parts, those of contacts in `RECORDED`, changing inputs."""
