@@ -30,7 +30,7 @@ _NOT_RECORDED = {
     "h_central", "h_min", "lambda_conventional", "temperature_1", "temperature_2",
     "contact_area_ratio", "contact_area_ratio_disc", "contact_load_ratio_disc",
     "tribofilm_roughness_1", "tribofilm_roughness_2", "tribofilm_covered_1", "tribofilm_covered_2",
-    "tribofilm_upper_1", "tribofilm_upper_2", "coverage_1", "coverage_2", "error_tribofilm_1", "error_tribofilm_2",
+    "tribofilm_upper_1", "tribofilm_upper_2", "coverage_1", "coverage_2",
     "roughness_ra_1", "roughness_ra_2", "roughness_raw_1", "roughness_raw_2",
     "iterations", "suggested_step", "unconverged", "blocks_dry", "blocks_mixed", "blocks_fallback",
 }  # fmt: skip

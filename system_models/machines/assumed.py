@@ -60,7 +60,12 @@ class Worth:
 
 
 def worth(kind: Kind, assembly: Assembly, duty: Timeline) -> Worth | None:
-    """Return what is assumed is worth in the state of the duty with most work; None if that has no answer."""
+    """Return what is assumed is worth in the state of the duty with most work.
+
+    None if that has no answer, or the kind does not say what its main results are.
+    """
+    if not kind.main:
+        return None
     state = _State(kind, assembly, *_hardest(kind, assembly, duty))
     try:
         values, warm = state.settled({})
@@ -81,9 +86,12 @@ def _hardest(kind: Kind, assembly: Assembly, duty: Timeline) -> tuple[float, dic
         found.setdefault(tuple(signals.items()), [time]).append(end - time)
     some = list(found.items())[:: math.ceil(len(found) / _MOST_ROWS)]
 
+    points = {name: contact.own_scene.operation.point for name, contact in assembly.contacts.items()}
+
     def work(row: tuple[tuple[tuple[str, float], ...], list[float]]) -> float:
-        contacts = kind.foreseen(assembly.parts, dict(row[0])).values()
-        return sum(row[1][1:]) * sum(each["load"] * abs(each["speed_1"] + each["speed_2"]) for each in contacts)
+        inputs = kind.foreseen(assembly.parts, dict(row[0]))
+        here = [replace(point, **inputs[name]) for name, point in points.items()]
+        return sum(row[1][1:]) * sum(op.load * abs(op.entrainment_speed) for op in here)
 
     hardest, (start, *_) = max(some, key=work)
     return start, dict(hardest)
