@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from benchmarks.pages import Page
 from system_models.machines import reading
-from system_models.machines.gear_pair.micropitting import TEST_RA, gf_class, load_stage, mean_friction
+from system_models.machines.gear_pair.micropitting import TEST_RA, gf_class, mean_friction
 from system_models.machines.gear_pair.path import Array
 from system_models.machines.gear_pair.rating import Rating
 from system_models.machines.gear_pair.record import RA_OF_RQ, Record
@@ -51,7 +51,7 @@ def with_oil(record: Record, **stages: int) -> Safeties:
 
 def stages_of(record: Record) -> list[int]:
     """Load stages of the test of FVA 54/7 that a run goes through."""
-    return [load_stage(stage.torque) or 0 for stage in record.stages]
+    return [stage.number for stage in record.stages]
 
 
 # micropitting
