@@ -239,13 +239,15 @@ def lines(assembly: Assembly, dataset: xr.Dataset, found: Worth | None) -> list[
     """Return a table of the main results with their errors at the end and what is assumed is worth beside them."""
     if not found or not found.intervals:
         return []
-    rows = [["result", "there", "error", "assumed", "mostly by"]]
+    rows, causes = [["result", "there", "error", "assumed"]], ["mostly by"]
     for name in found.shown:
         each = found.halves[name]
         most = [key for key, half in each.parts.items() if half > _MUCH * each.together][:_MOST]
         there = _value(name, found.values[name], dataset), _error(assembly, dataset, name), _text(found, name)
-        rows.append([name, *there, ", ".join(most) if there[-1] != _NONE else ""])
-    return [*wrapped(where(found)), "", *aligned(rows, 4)]
+        rows.append([name, *there])
+        causes.append(", ".join(most) if there[-1] != _NONE else "")
+    told = [f"{row}  {cause}".rstrip() for row, cause in zip(aligned(rows, 1), causes, strict=True)]
+    return [*wrapped(where(found)), "", *told]
 
 
 def where(found: Worth) -> str:
@@ -262,6 +264,8 @@ def _value(name: str, value: float, dataset: xr.Dataset) -> str:
         return f"{value - 273.15:.1f} degC"
     if name.endswith(f".{WEAR}"):
         return f"{3.6e12 * value:.3g} nm/h" if value > _NO_WEAR else _NONE
+    if _absolute(name):
+        return f"{value:.4f}"
     unit = dataset[name].attrs["units"]
     return f"{1e9 * value:.3g} nm" if unit == "m" else f"{value:.3g} {unit}".removesuffix(" 1")
 
@@ -278,9 +282,9 @@ def _error(assembly: Assembly, dataset: xr.Dataset, name: str) -> str:
     if half is None:
         return _NONE
     value = 1.0 if _absolute(name) else float(np.abs(dataset[key].values[-1]))
-    if value == 0.0 or not np.isfinite(half[-1]):
+    if not _LEAST * value <= half[-1] < math.inf or value == 0.0:
         return _NONE
-    return f"{half[-1]:.2g}" if _absolute(name) else f"{100.0 * half[-1] / value:.2g} %"
+    return f"{half[-1]:.2g}" if _absolute(name) else text(WEAR, half[-1] / value)
 
 
 def attribute(found: Worth | None) -> dict[str, str]:
@@ -310,4 +314,4 @@ def _text(found: Worth, name: str, key: str = "") -> str:
         return _NONE
     if _TEMPERATURE in name:
         return f"{half:.2g} K"
-    return f"{half:.2g}" if _absolute(name) else f"{100.0 * half / abs(here):.2g} %"
+    return f"{half:.2g}" if _absolute(name) else text(WEAR, half / abs(here))
