@@ -45,8 +45,7 @@ def run(name: str, nodes: int) -> tuple[np.ndarray, float, float, float]:
 def main() -> None:
     page = Page("film/two_hours", "Two hours of rubbing on two grids")
     page.say(
-        "The shipped scenes. Means over windows of time. Where the solids carry more than `control.dry_above` of the load, dry contacts of the same share drive the blocks. "
-        "A work unit is the time of one deformation on the same grid."
+        "The shipped scenes. Means over windows of time. A work unit is the time of one deformation on the same grid."
     )
     page.header("scene", "nodes", "minutes", *NAMES.values())
     costs = []

@@ -144,7 +144,7 @@ def observe_rubbed(point: Point, overrides: Overrides) -> dict[str, float]:
         if minute not in RUBBING:
             continue
         now = means_of(scene, state)
-        found[f"area_{minute}"], found[f"dry_{minute}"] = out.contact_area_ratio, float(state.dry_blocks_left > 0)
+        found[f"area_{minute}"], found[f"dry_{minute}"] = out.contact_area_ratio, float(out.blocks_dry > 0)
         for name, i in (("rougher", rougher), ("smoother", 1 - rougher)):
             exposed, growth = np.mean([moment[i] for moment in last], axis=0), state.bodies[i].growth[rows]
             where = float((exposed * growth).mean() / exposed.mean())

@@ -109,7 +109,6 @@ iterations = 2000
 
 [control]
 change = "1 um"
-dry_above = 0.8
 input_change = 0.02
 driver = "dry"
 

@@ -130,16 +130,15 @@ COST = ["blocks", "s", "WU"]
 def control() -> list[str]:
     """The shipped control against one ten times finer in time."""
     lines, rows, bars = [], [], []
-    for driver in ("dry", "mixed", "auto"):
-        reference = run({"control.driver": "mixed" if driver == "auto" else driver} | FINE)
+    for driver in ("dry", "mixed"):
+        reference = run({"control.driver": driver} | FINE)
         found = run({"control.driver": driver})
         rows.append([driver, *cost(found), *(f"{100 * e:.1f} ({c:.2f})" for e, c in errors(found, reference).values())])
         bars += judged(driver, errors(found, reference))
-        if driver != "auto":
-            rows.append([f"{driver}, 10x finer", *cost(reference), *("" for _ in NAMES)])
+        rows.append([f"{driver}, 10x finer", *cost(reference), *("" for _ in NAMES)])
     lines += [
         "Rms error over 13 times from 5 to 119 min in per cent, and in brackets the share of these times at which the error is",
-        "within the reported half widths (time and sampling). `auto` is compared with the fine mixed-driven run.",
+        "within the reported half widths (time and sampling).",
         "",
         *table(["driver", *COST, *NAMES.values()], rows),
         "",
@@ -312,7 +311,7 @@ def sensitivity() -> list[str]:
 
 
 def driver() -> list[str]:
-    """At the same surfaces: mixed lubrication, dry contact, and dry contact under oil of the mixed share."""
+    """At the same surfaces: mixed lubrication and dry contact."""
     rows = []
     for case in (CASE, "mtm_zddp"):
         scene = scene_of(
@@ -324,12 +323,9 @@ def driver() -> list[str]:
             state, _ = advance(shipped, op, state, 60.0 * minutes)
             mixed = Accumulator.before(state)
             sample_mixed(Case(scene, op), state, mixed, True)
-            share = mixed.means()["contact_load_ratio"]
-            for name, part in (("mixed", None), ("dry", 1.0), ("dry under oil", share)):
-                sweep = mixed
-                if part is not None:
-                    sweep = Accumulator.before(state)
-                    sample_dry(Case(scene, op), replace(state, share=part), sweep)
+            dry = Accumulator.before(state)
+            sample_dry(Case(scene, op), state, dry, True)
+            for name, sweep in (("mixed", mixed), ("dry", dry)):
                 m = sweep.means()
                 rows.append(
                     [case, f"{state.time / 60:.0f}", name, f"{m['contact_load_ratio']:.3f}", f"{m['contact_area_ratio']:.3f}",
@@ -339,24 +335,17 @@ def driver() -> list[str]:
     two_hours = []
     for case in (CASE, "mtm_zddp"):
         mixed = run({"control.driver": "mixed"}, case)
-        for name in ("auto", "dry"):
-            found = run({"control.driver": name}, case)
-            two_hours.append(
-                [
-                    case,
-                    name,
-                    *cost(found),
-                    f"{found['blocks_dry'][-1]:.0f}",
-                    *(f"{100 * e:.1f}" for e, _ in errors(found, mixed).values()),
-                ]
-            )
+        found = run({"control.driver": "dry"}, case)
+        blocks = f"{found['blocks_dry'][-1]:.0f}"
+        two_hours.append(
+            [case, "dry", *cost(found), blocks, *(f"{100 * e:.1f}" for e, _ in errors(found, mixed).values())]
+        )
     return [
-        "The same surfaces, solved three ways: a mixed march over one pass, 32 dry instants, and 32 dry instants whose solids carry",
-        "the share of the mixed march under oil that carries the rest as between smooth bodies. The last one drives blocks above `control.dry_above`.",
+        "The same surfaces, solved two ways: a mixed march over one pass, and 32 dry instants.",
         "",
         *lines,
         "",
-        "Two hours by that rule (`auto`) and all dry, against the mixed-driven run, rms over time in per cent:",
+        "Two hours driven dry, against the mixed-driven run, rms over time in per cent:",
         "",
         *table(["case", "driver", *COST, "dry blocks", *NAMES.values()], two_hours),
     ]

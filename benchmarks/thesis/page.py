@@ -41,9 +41,6 @@ Set A: `azam_case_a` (u_e 0.25 m/s, 90 °C, SRR -2 % unless stated). Set B: `mtm
 ball, body 2 the disc; SRR = 2 (u_ball - u_disc) / (u_ball + u_disc). h_c: mean gap over r < 2a/3. λ = h_c / composite rms
 roughness; conventional λ: with Hamrock and Dowson's film. A_c: real contact area / Hertz area; W_c: load on solids / load.
 Mean films and depths: over the track |y| < a; covered: nodes with more than 1 nm. Roughness: over |y| < 2a/3, free of the groove's shape unless stated. Start: the fresh surfaces; end: after 2 h.
-
-With `control.driver = auto`, as in ours, a dry contact under oil drives the blocks while W_c is above `control.dry_above`; h_c, λ and p_max
-are then those of that contact, and may jump by some per cent where the driver changes. A peak at such a time is not judged.
 """
 
 BOOKS = """\

@@ -32,17 +32,15 @@ class Accumulator:
     fluid: Array  # pressure of the oil, on the grid
     gap: Array  # likewise
     beyond: float = 0.0  # rolling resistance before the edge of the grid [N], summed
-    oil_shear: float = 0.0  # stress of the oil, summed over all nodes
     outputs: list[dict[str, float]] = field(default_factory=list)
     iterations: int = 0
     mixed: int = 0
     unconverged: int = 0  # solutions that have not converged
-    before_dry: float = 0.0  # share of them among the mixed solutions that a dry block relies on
     fallbacks: int = 0
     flags: RangeFlag = field(default_factory=lambda: RangeFlag(0))
     tractions: list[Traction] = field(default_factory=list)  # of the instants, where stresses are asked for
     filmed: Grid | None = None  # where the oil flowed
-    sheared: Film | None = None  # the last instant's whose oil was sheared by its rheology
+    sheared: Film | None = None  # the last instant's
 
     @staticmethod
     def before(state: ContactState) -> "Accumulator":
@@ -53,13 +51,6 @@ class Accumulator:
         tracks = (zeros[0], zeros[1]), (zeros[2], zeros[3]), (since[0], since[1]), (peaks[0], peaks[1])
         return Accumulator(*tracks, *np.zeros((2, rows, columns + 1)))
 
-    def restarted(self, state: ContactState, kept: RangeFlag) -> "Accumulator":
-        """Return empty sums that keep iterations, the share not converged, the last film, and the flags in `kept`."""
-        sums = Accumulator.before(state)
-        sums.flags, sums.iterations, sums.before_dry = self.flags & kept, self.iterations, self.share_unconverged
-        sums.sheared = self.sheared
-        return sums
-
     @property
     def all_flags(self) -> RangeFlag:
         """The instants' flags, and one if many of them are not converged."""
@@ -67,8 +58,8 @@ class Accumulator:
 
     @property
     def share_unconverged(self) -> float:
-        """Share of the solutions that have not converged, those that a dry block relies on included."""
-        return max(self.unconverged / max(self.count, 1), self.before_dry)
+        """Share of the solutions that have not converged."""
+        return self.unconverged / max(self.count, 1)
 
     @property
     def count(self) -> int:
@@ -108,28 +99,16 @@ class Accumulator:
             self.tractions.append(traction_of(case.scene, state, fields))
         self.fluid += fields.fluid_pressure
         self.gap += fields.gap
-        self.oil_shear += float(fields.oil_shear.sum())
         seen = observed(case, fields)
-        if fields.sheared.oil_friction is None:
-            self.sheared = fields.sheared
-            self.beyond += beyond_grid(case, case.grid(fields.y.size))
-            self.filmed = case.grid(fields.y.size)
-        else:  # the pressure of that oil is Hertz's: it has no inlet that resists rolling
-            seen["rolling_resistance"] = state.oil_rolling * (1.0 - seen["contact_load_ratio"]) * case.op.load
+        self.sheared = fields.sheared
+        self.beyond += beyond_grid(case, case.grid(fields.y.size))
+        self.filmed = case.grid(fields.y.size)
         self.outputs.append(seen)
         self.iterations += fields.iterations
         self.mixed += fields.route == "mixed"
         self.unconverged += not fields.converged
         self.fallbacks += fields.route == "fallback"
         self.flags |= instant_flags(case, fields) | flag_of_scuffing(seen["scuffing_ratio"])
-
-    def oil_over_its_load(self, load: float) -> tuple[float, float]:
-        """Return friction and rolling resistance of the oil over what it carries of the `load` [N]; 0 for nothing."""
-        pressed, means = float(self.fluid.sum()), self.means()
-        carried = (1.0 - means["contact_load_ratio"]) * load
-        if pressed <= 0.0 or carried <= 0.0:
-            return 0.0, 0.0
-        return self.oil_shear / pressed, means["rolling_resistance"] / carried
 
     def slopes(self, case: Case) -> dict[str, float]:
         """Return the derivatives of the friction in that film; none where no instant had one."""

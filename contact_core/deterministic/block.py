@@ -1,9 +1,7 @@
 """One block: an interval over which one set of contact solutions holds, because the geometry changes only a little.
 
-`control.driver` says which solutions drive tribofilm and wear: mixed ones, dry ones or, for "auto", by the share of the
-load on the solids. Where the solids carry more than `control.dry_above` of the load, a dry contact replaces the mixed
-one: its solids carry the same share, under oil that carries the rest like smooth bodies, with the friction per load
-that it had. A mixed march measures both anew every few blocks. `sampling` has the instants of both.
+Mixed lubrication drives tribofilm and wear, from a full film to where solids carry all of the load. A dry contact does
+without entrainment, and where `control.driver` asks for it. `sampling` has the instants of both.
 """
 
 import math
@@ -26,15 +24,12 @@ from .resting import conformed, scar_time
 from .sampling import blocks_per_pass, jumps_of, rest_of_a_pass, sample_dry, sample_mixed
 from .subsurface import is_whole, of_a_pass, outputs_of_stress, passed
 
-_DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
 # variance of the noise of heights per block over that of independent blocks: mixed fitted to the roughness of case A's
 # ball, as `python -m benchmarks.surfaces.evolution control` shows; dry to its tribofilm, tests/convergence
 _ALIKE = {"dry": 0.25, "mixed": 0.5}
 _CREEP = 0.01  # of the other body's speed: of a slower body a block samples only a piece of the track
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
-# flags of the mixed solutions that measured the share: they also hold for the dry blocks that use it
-_OF_FILM = RangeFlag.INLET_UNRESOLVED
 _SHORTEST = 0.05  # of control.longest: no block is shorter for wear or pits; a flag says where wear asks for it
 _LONGER = 2.0  # a block may be so much longer than the one before
 _EDGE = 3  # rows and columns at the edge that the scar must not reach
@@ -61,33 +56,20 @@ def solve_block(case: Case, state: ContactState) -> ContactState:
     same = state.solved_for is not None and not case.differs_from(state.solved_for)
     state = replace(state, settling=0.0)
     if not same:
-        state = replace(state, dry_blocks_left=0, share=1.0, trends=state.trends.restarted(), held=0.0)
+        state = replace(state, trends=state.trends.restarted(), held=0.0)
     return finished(case, *_sampled(case, _wide_enough(case, state), same))
 
 
 def _sampled(case: Case, state: ContactState, same: bool) -> tuple[ContactState, Accumulator]:
     """Return the state after the instants of a block, and their sums; `same`: the operating point has not changed."""
-    driver, sums = case.scene.control.driver, Accumulator.before(state)
+    sums = Accumulator.before(state)
     if not case.loaded:
         sums.add(case, state, solve_instant(case, state))
-        return replace(state, film=None, share=1.0), sums
-    if not case.entrained or driver == "dry":
-        state = replace(state, share=1.0)
-    elif driver == "mixed" or state.dry_blocks_left == 0:
-        state = sample_mixed(case, state, sums, same)
-        found = sums.means()["contact_load_ratio"]
-        if driver == "mixed" or found <= case.scene.control.dry_above or sums.fallbacks:
-            return rest_of_a_pass(case, replace(state, share=1.0), sums, same), sums
-        friction, rolling = sums.oil_over_its_load(case.op.load)
-        if state.share < 1.0:  # one measurement scatters
-            found = 0.5 * (found + state.share)
-            friction, rolling = 0.5 * (friction + state.oil_friction), 0.5 * (rolling + state.oil_rolling)
-        measured = replace(state, share=found, oil_friction=friction, oil_rolling=rolling)
-        state = replace(measured, dry_blocks_left=_DRY_BLOCKS, film=None)
-        sums = sums.restarted(state, _OF_FILM)
-    else:  # the flags of the mixed solutions that measured the share still hold
-        sums.flags, sums.before_dry = RangeFlag(state.outputs.range_flags) & _OF_FILM, state.outputs.unconverged
-    return sample_dry(case, state, sums, same), sums
+        return replace(state, film=None), sums
+    if not case.entrained or case.scene.control.driver == "dry":
+        return sample_dry(case, state, sums, same), sums
+    state = sample_mixed(case, state, sums, same)
+    return rest_of_a_pass(case, state, sums, same), sums
 
 
 def _wide_enough(case: Case, state: ContactState) -> ContactState:
@@ -116,7 +98,7 @@ def _worn_at_the_ends(case: Case, state: ContactState) -> bool:
     Its pressure tells: wear may also be a groove from earlier motion, which goes on beyond the ends.
     """
     scars = [
-        on_grid(state.bodies[side.body].pressure, patch_nodes(case.scene, state.bodies[side.body]))
+        on_grid(state.bodies[side.body].pressure, patch_nodes(case.scene, state.bodies[side.body], state.window))
         for side in case.sides
         if not side.moves
     ]
@@ -157,13 +139,11 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
         iterations=sums.iterations,
         unconverged=sums.share_unconverged,
     )
-    left = max(state.dry_blocks_left - 1, 0) if driver == "dry" else 0
     state = replace(
         state,
         law=law_of(case.scene),
         solved_for=case.op,
         change=0.0,
-        dry_blocks_left=left,
         outputs=outputs,
         trends=trends,
     )

@@ -7,7 +7,7 @@ from ..scene import Case
 from ..state import ContactState, Outputs, RangeFlag
 from .accumulator import MANY, Accumulator
 from .block import finished
-from .sampling import settling_instants
+from .sampling import settling_time
 from .transient import follow, longest_instant
 
 
@@ -24,9 +24,8 @@ def solve_instant_of_change(case: Case, state: ContactState, dt: float) -> Conta
     """Solve the contact `dt` [s] later, the bodies moved on. Return the state with exposures and outputs."""
     since = state.solved_for
     if since is None or case.differs_from(since):
-        fastest = case.fastest
-        passage = settling_instants(case) * case.scene.film.spacing / fastest if fastest > 0.0 else math.inf
-        state, since = replace(state, settling=passage, share=1.0, dry_blocks_left=0), case.op
+        passage = settling_time(case) if case.fastest > 0.0 else math.inf
+        state, since = replace(state, settling=passage), case.op
     steps = [speed * dt for speed in case.speeds]
     passes = (abs(steps[0]) / case.scene.film.domain, abs(steps[1]) / case.scene.film.domain)
     state, fields = follow(case, state, dt, steps)

@@ -26,7 +26,6 @@ class Film:
     gap: Array  # [m]
     cover: Array  # mean tribofilm of both bodies / full thickness
     temperature: Array | float  # of the oil, mean across the film [K]
-    oil_friction: float | None = None  # shear of the oil over its pressure, where it is known; None: by its rheology
     oxide: Array | None = None  # what oxide adds to the coefficient of boundary friction; None: nothing
 
 
@@ -79,8 +78,6 @@ def shear(case: Case, film: Film) -> Shear:
     oil, boundary = case.scene.lubricant, case.scene.boundary_friction
     speed, along_x, along_y = sliding(case.op, film.grid)
     solid = _rubbing(case, film, speed)
-    if film.oil_friction is not None:
-        return Shear(film.oil_friction * film.fluid, solid, speed, along_x, along_y)
     newtonian = _viscosity(case, film, film.fluid, film.temperature) * speed / film.gap
     limiting = film.fluid * boundary.grip(speed) * oil.rheology.limiting_left(film.temperature)
     fluid = oil.rheology(newtonian, limiting)

@@ -24,11 +24,13 @@ class Transient:
     """The step from the state's last film solution to an instant."""
 
     dt: float  # time since then [s]
-    moved: int  # nodes by which the rougher surface has moved along +x since then
+    moved: int  # nodes by which the rougher surface has moved along +x on the grid since then
     iterations: int  # at most
     heated: bool = True  # False: temperatures are not needed; the film keeps its last ones
     order: int = 1  # of the squeeze term in time, 1 or 2
     thorough: bool = False  # True: try all algorithms; False: the residual carries over to the next instant
+    shifted: float = 0.0  # nodes by which the grid itself has moved along +x
+    rolled: int = 0  # and those by which the oil has moved along on the grid
 
 
 @dataclass(frozen=True)
@@ -66,7 +68,6 @@ def solve(
     *,
     dry: bool = False,
     solid_share: float = 1.0,
-    oil_friction: float | None = None,
 ) -> ContactFields:
     """Solve the contact at one instant; time and state stand still.
 
@@ -76,7 +77,6 @@ def solve(
     dry : leave the film out.
     solid_share : share of the load that the solids of a dry contact carry; oil spread as in Hertz's contact carries the
         rest.
-    oil_friction : coefficient of friction of that oil; None: by its rheology at that pressure, in the dry gap.
 
     Returns
     -------
@@ -96,7 +96,7 @@ def solve(
     if not isinstance(scene.film, Deterministic):
         raise SceneError(f"film.model = '{scene.film.name}' has no fields. Solve scene.at_level('deterministic').")
     case = Case.bind(scene, op, state.temperatures)
-    return solve_instant(case, state, transient, dry=dry, solid_share=solid_share, oil_friction=oil_friction)
+    return solve_instant(case, state, transient, dry=dry, solid_share=solid_share)
 
 
 def solve_instant(
@@ -106,13 +106,13 @@ def solve_instant(
     *,
     dry: bool = False,
     solid_share: float = 1.0,
-    oil_friction: float | None = None,
 ) -> ContactFields:
     """Solve a case at one instant; as `solve`, for an operating point that has been checked."""
     scene = case.scene
     level, full = scene.film, scene.tribofilm.full_thickness
     assert isinstance(level, Deterministic)
-    faced, grid = facing_surfaces(scene, state, moving=transient is not None), scene.grid(state.rows)
+    faced = facing_surfaces(scene, state, moving=transient is not None)
+    grid = scene.grid(state.rows).shifted(state.window)
     film_1, film_2 = faced.tribofilms
     covers = film_1 / full, film_2 / full
     cover = 0.5 * (covers[0] + covers[1])
@@ -124,7 +124,8 @@ def solve_instant(
     else:
         step = None
         if transient and before:
-            step = Step(transient.dt, transient.moved, transient.order, transient.thorough)
+            how = transient.moved, transient.order, transient.thorough
+            step = Step(transient.dt, *how, transient.shifted, transient.rolled)
         most = transient.iterations if transient else None
         film = solve_flow(
             case,
@@ -136,7 +137,7 @@ def solve_instant(
             level.tolerance,
             oxide,
         )
-    rubbed = replace(sheared(grid, film, cover, case.op.inlet_temperature, oxide), oil_friction=oil_friction)
+    rubbed = sheared(grid, film, cover, case.op.inlet_temperature, oxide)
     found, stress, warm, shortfall = warmed(case, rubbed, before, heated=not transient or transient.heated)
     convergence = film.convergence | {
         "converged": film.converged and not shortfall,

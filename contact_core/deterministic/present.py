@@ -1,18 +1,17 @@
 """The instant that a run is at: of the kind that drives tribofilm and wear in its block."""
 
-from dataclasses import replace
-
 from ..scene import Case
 from ..state import ContactState
 from .instant import solve_instant
+from .sampling import instant_time
 from .transient import Found, dry_instant, follow
 
 
 def present_instant(case: Case, state: ContactState) -> Found:
     """Solve the contact where a run has got to; the state stands, and what the run does next does not depend on it.
 
-    With a film: the next instant of its march, a node on. In a dry block and without entrainment: a dry one whose
-    solids carry the measured share of the load. Else, as without a load or after a change of the inputs: a steady one.
+    With a film: the next instant of its march. In a dry block and without entrainment: a dry one. Else, as without a
+    load or after a change of the inputs: a steady one.
 
     Returns
     -------
@@ -26,12 +25,12 @@ def present_instant(case: Case, state: ContactState) -> Found:
 
     """
     same = state.solved_for is not None and not case.differs_from(state.solved_for)
-    driver, share = case.scene.control.driver, state.share if same else 1.0
+    dry = case.scene.control.driver == "dry"
     if not case.loaded:
         return state, solve_instant(case, state)
-    if driver != "dry" and same and state.film is not None and case.fastest > 0.0:
-        dt = case.scene.film.spacing / case.fastest
+    if not dry and same and state.film is not None and case.fastest > 0.0:
+        dt = instant_time(case)
         return follow(case, state, dt, [speed * dt for speed in case.speeds])
-    if driver == "dry" or not case.entrained or share < 1.0:
-        return dry_instant(case, replace(state, share=share), (0.0, 0.0))
+    if dry or not case.entrained:
+        return dry_instant(case, state, (0.0, 0.0))
     return state, solve_instant(case, state)

@@ -57,7 +57,7 @@ def conformed(case: Case, state: ContactState, bodies: tuple[Body, Body], fluid:
         if side.moves:
             heights += patch.mean(axis=1, keepdims=True)
             continue
-        nodes = patch_nodes(scene, body)
+        nodes = patch_nodes(scene, body, state.window)
         heights += on_grid(patch, nodes)
         unit = replace(body, pressure=np.ones_like(body.pressure))
         soft += time * on_grid(wear_speed(case, side, unit, body.tribofilm), nodes)

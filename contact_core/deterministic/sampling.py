@@ -31,7 +31,7 @@ _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through
 _CLEAR = 3.0  # formula film over rms roughness, from which on a dry contact is no start
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
 _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the sampled film
-_CALMING = 24  # transient steps after a jump of a rougher one, or from a dry contact of the right share
+_CALMING = 24  # nodes of the oil's way after a jump of a rougher one
 
 
 def sample_dry(case: Case, state: ContactState, sums: Accumulator, same: bool) -> ContactState:
@@ -72,7 +72,7 @@ def sample_mixed(
     `same`: the march continues at the same operating point. `jumping` False: all bodies roll on as they are.
     """
     scene = case.scene
-    dt = scene.film.spacing / case.fastest
+    dt = instant_time(case)
     steps = [speed * dt for speed in case.speeds]
     passes = (abs(steps[0]) / scene.film.domain, abs(steps[1]) / scene.film.domain)
     smoother = 1 - scene.rougher
@@ -80,13 +80,12 @@ def sample_mixed(
     unsampled = settling_instants(case)
     if state.film is None:
         state = replace(state, film=first_film(case, state))
-        unsampled = unsampled if state.share == 1.0 else _CALMING
     elif same and (any(jumps) or pass_goes_on(case, state, same) or not (jumping and case.sides[smoother].moves)):
         unsampled = 0
     elif same:
-        state, unsampled = rolled(scene, state, jumps_of(case, smoother, 1.0)), _CALMING
+        state, unsampled = rolled(scene, state, jumps_of(case, smoother, 1.0)), _instants(scene, _CALMING)
     length = case.sides[scene.rougher].surface.length / scene.film.spacing
-    stride = max(1, round(length))  # as many jumps on the way on every grid
+    stride = max(1, round(length / scene.control.nodes_per_instant))  # as many jumps on the way on every grid
     sampled = mixed_instants(scene)
     for k in range(-unsampled, sampled):
         tell("instant", unsampled + k + 1, unsampled + sampled)
@@ -110,36 +109,52 @@ def rest_of_a_pass(case: Case, state: ContactState, sums: Accumulator, same: boo
 def first_film(case: Case, state: ContactState) -> FilmState:
     """Return the film that a march begins with.
 
-    It is the steady one where smooth bodies' film clears the roughness by far, else that of a dry contact, whose solids
-    carry the share that was measured.
+    It is the steady one where smooth bodies' film clears the roughness by far, else that of a dry contact.
     """
     scene = case.scene
     clear = case.smooth_film > _CLEAR * math.hypot(scene.surface_1.rms, scene.surface_2.rms)
-    if clear and state.share == 1.0:
+    if clear:
         with suppress(ConvergenceError):
             return solve_instant(case, state).film
-    return solve_instant(case, state, dry=True, solid_share=state.share).film
+    return solve_instant(case, state, dry=True).film
+
+
+def instant_time(case: Case) -> float:
+    """Return the time [s] from instant to instant: of oil, or of a body that runs far ahead of it, by so many nodes."""
+    entrained = abs(case.op.entrainment_speed)
+    leading = entrained if case.fastest <= _AHEAD * entrained else case.fastest
+    return case.scene.control.nodes_per_instant * case.scene.film.spacing / leading
+
+
+def _instants(scene: Scene, nodes: float) -> int:
+    """Return the instants in which the oil moves by so many nodes."""
+    return math.ceil(nodes / scene.control.nodes_per_instant)
+
+
+def settling_time(case: Case) -> float:
+    """Return the time [s] until a film has settled."""
+    return settling_instants(case) * instant_time(case)
 
 
 def settling_instants(case: Case) -> int:
-    """Return the instants, a node of the faster body apart, until the film has settled."""
+    """Return the instants until the film has settled."""
     fastest, entrained = case.fastest, abs(case.op.entrainment_speed)
     across = math.ceil(_PASSAGE * case.hertz.a / case.scene.film.spacing)
-    if fastest <= _AHEAD * entrained:
-        return across
-    return min(math.ceil(across * fastest / entrained), _MOST_SETTLING) if entrained > 0.0 else _MOST_SETTLING
+    if fastest > _AHEAD * entrained:
+        across = min(math.ceil(across * fastest / entrained), _MOST_SETTLING) if entrained > 0.0 else _MOST_SETTLING
+    return _instants(case.scene, across)
 
 
 def mixed_instants(scene: Scene) -> int:
-    """Return the sampled instants of a mixed block: by default an eighth of a pass, whatever the grid."""
-    return scene.control.mixed_instants or math.ceil((scene.film.points - 1) / 8)
+    """Return the sampled instants of a mixed block: by default a sixteenth of a pass, whatever the grid."""
+    return _instants(scene, scene.control.mixed_instants or math.ceil((scene.film.points - 1) / 16))
 
 
 def blocks_per_pass(scene: Scene, driver: str) -> float:
     """Return how many blocks it takes until the sampled instants make up one pass of a surface point."""
     if driver == "dry":
         return _DRY_PASS / scene.control.dry_instants
-    return (scene.film.points - 1) / mixed_instants(scene)
+    return (scene.film.points - 1) / (mixed_instants(scene) * scene.control.nodes_per_instant)
 
 
 def jumps_of(case: Case, index: int, most: float = _SMOOTHER) -> list[float]:

@@ -45,9 +45,9 @@ class Pass(NamedTuple):
 
 def traction_of(scene: Scene, state: ContactState, fields: ContactFields) -> Traction:
     """Return the tractions of an instant."""
-    first, second = state.bodies
+    first, second = (patch_nodes(scene, body, state.window) for body in state.bodies)
     shear = fields.fluid_shear + fields.solid_shear
-    return Traction(fields.pressure, shear, (patch_nodes(scene, first), patch_nodes(scene, second)))
+    return Traction(fields.pressure, shear, (first, second))
 
 
 def pass_goes_on(case: Case, state: ContactState, same: bool) -> bool:

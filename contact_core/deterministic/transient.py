@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FilmTooWideError, OperatingPointError
+from ..film import Deterministic
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
-from ..surfaces.patches import facing_films, on_patches
+from ..surfaces.patches import facing_films, on_patches, patch_nodes
 from .instant import ContactFields, Transient, solve, solve_instant
 
 Array = NDArray[np.float64]
@@ -70,19 +71,31 @@ def follow(
 def next_instant(case: Case, state: ContactState, steps: Sequence[float], transient: Transient) -> Found:
     """Solve an instant after that of a state with a film; the bodies have moved along +x by `steps` [m].
 
-    The nodes moved by in `transient` are filled in here.
+    Where the oil is carried over, the nodes of the contact move on with it. The ways in `transient` are filled in here.
     """
-    state = rolled(case.scene, state, steps)
-    moved = round(steps[case.scene.rougher] / case.scene.film.spacing)
-    fields = solve_instant(case, state, replace(transient, moved=moved))
+    spacing, columns, rougher = case.scene.film.spacing, case.scene.film.points - 1, case.scene.rougher
+    way = case.op.entrainment_speed * transient.dt if transient.order == 1 and _is_carried(case) else 0.0
+    oil = round((state.window + way) / spacing)  # nodes that it moves along; by the rest the nodes move with it
+    window = state.window + way - oil * spacing
+    before = patch_nodes(case.scene, state.bodies[rougher], state.window)
+    shifted, state = (window - state.window) / spacing, rolled(case.scene, replace(state, window=window), steps)
+    moved = patch_nodes(case.scene, state.bodies[rougher], window) - before
+    moved = (moved + columns // 2) % columns - columns // 2
+    ways = replace(transient, moved=moved, shifted=shifted, rolled=oil)
+    fields = solve_instant(case, state, ways)
     return _after(case.scene, state, fields), fields
 
 
+def _is_carried(case: Case) -> bool:
+    """Return True if the oil between the bodies moves on as it is; before a meniscus there is none."""
+    film = case.scene.film
+    return isinstance(film, Deterministic) and film.flux == "fitted" and case.scene.lubricant.supply.inlet is None
+
+
 def dry_instant(case: Case, state: ContactState, steps: Sequence[float]) -> Found:
-    """Solve a dry instant whose solids carry the state's share; the bodies have moved along +x by `steps` [m]."""
+    """Solve a dry instant; the bodies have moved along +x by `steps` [m]."""
     state = rolled(case.scene, state, steps)
-    oil = state.oil_friction if state.share < 1.0 else None
-    fields = solve_instant(case, state, dry=True, solid_share=state.share, oil_friction=oil)
+    fields = solve_instant(case, state, dry=True)
     return replace(_after(case.scene, state, fields), film=None), fields
 
 

@@ -6,6 +6,7 @@ from ..scene import Case
 from ..state import ContactState
 from .instant import Transient, solve_instant
 from .sampling import first_film
+from .transient import next_instant
 
 _ITERATIONS = 40
 
@@ -15,4 +16,4 @@ def warm_up(case: Case, state: ContactState) -> None:
     solve_instant(case, state, dry=True)
     state = replace(state, film=first_film(case, state))
     dt = case.scene.film.spacing / abs(case.op.entrainment_speed)
-    solve_instant(case, state, Transient(dt, 1, _ITERATIONS))
+    next_instant(case, state, [speed * dt for speed in case.speeds], Transient(dt, 1, _ITERATIONS))

@@ -15,6 +15,7 @@
     thinning        flow of an oil that shear thins or heat warms
     outputs         outputs of a film from its fields
     fitted          grids that fit a film
+    slow_film       film that stands still under a march whose nodes move with the oil
     estimate        error estimate from coarser grids
     refined         grids from coarse to fine, until an accuracy is met
     grid_steps      record of a grid that is solved on the way to an accuracy

@@ -51,6 +51,10 @@ class Grid:
         distance_2: Array = self.x[None, :] ** 2 + self.y[:, None] ** 2
         return distance_2
 
+    def shifted(self, way: float) -> "Grid":
+        """Return the grid moved on along +x [m]."""
+        return replace(self, x=self.x + way) if way else self
+
     def mirrored(self) -> "Grid":
         """Return the grid mirrored along x: x becomes -x."""
         return replace(self, x=-self.x[::-1])
@@ -103,13 +107,15 @@ class Step:
     """Time step from the film solution at which an instant starts."""
 
     dt: float  # time since then [s]
-    moved: int = 0  # nodes by which the rough surfaces have moved along +x since then
+    moved: int = 0  # nodes by which the rough surfaces have moved along +x on the grid since then
     order: int = 1  # of the squeeze term in time: 1, backward Euler; 2, backward differences over two steps
     thorough: bool = False  # True: every algorithm is tried; False: the residual carries over to the next instant
+    shifted: float = 0.0  # nodes by which the grid itself has moved along +x since then
+    rolled: int = 0  # and those by which the oil moved along on the grid; both 0: the grid stands still under the oil
 
     def mirrored(self) -> "Step":
         """Return the step mirrored along x."""
-        return replace(self, moved=-self.moved)
+        return replace(self, moved=-self.moved, shifted=-self.shifted, rolled=-self.rolled)
 
 
 @dataclass(frozen=True)
@@ -139,7 +145,6 @@ class FilmState:
     warmth: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of the film above the inlet [K], as well
     mass_before: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of a step of second order, where it began
     dt: float = 0.0  # [s] since then
-    slow_mass: Array = field(default_factory=lambda: np.zeros((1, 1)))  # `mass` as a running mean, as well
 
     def __post_init__(self) -> None:
         for array in (self.solid, *self._fields):
@@ -148,14 +153,14 @@ class FilmState:
     @property
     def _fields(self) -> tuple[Array, ...]:
         oil = self.ease, self.thinned, self.warmth
-        return self.pressure, self.fluid, self.mass, *oil, self.mass_before, self.slow_mass
+        return self.pressure, self.fluid, self.mass, *oil, self.mass_before
 
     def mirrored(self) -> "FilmState":
         """Return the state mirrored along x."""
         solid = np.ascontiguousarray(self.solid[:, ::-1])
         first = (np.ascontiguousarray(f[:, ::-1]) for f in self._fields)
-        pressure, fluid, mass, ease, thinned, warmth, before, slow = first
-        return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, thinned, warmth, before, self.dt, slow)
+        pressure, fluid, mass, ease, thinned, warmth, before = first
+        return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, thinned, warmth, before, self.dt)
 
 
 @dataclass(frozen=True)

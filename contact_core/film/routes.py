@@ -28,6 +28,7 @@ from ..progress import ALGORITHM, tell
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .lengths import inlet_length
 from .scaled import Scaled
+from .slow_film import slow_film
 from .solutions import LOAD_ACCEPTED, dry, load_balance, solution
 from .starts import dry_start, lifted_start, shared_start
 
@@ -200,8 +201,9 @@ def solve_film(
     at_rest = now.entrainment_speed == 0.0
     closing, pull = float(at_rest), now.entrainment_speed * grid.spacing  # at rest its size does not matter
     apart: float | None = None
+    slow = slow_film(now, grid, step.shifted, settings, solve_film) if step and (step.rolled or step.shifted) else None
     for _ in range(_CLOSINGS):
-        scaled = Scaled(now, grid, settings, start, step, closing, apart)
+        scaled = Scaled(now, grid, settings, start, step, closing, apart, slow)
         found, last, settled = _film(scaled, start, step), closing, True
         if start and step and step.thorough and scaled.is_light and not at_rest:
             closing = (start.rigid_gap - found.state.rigid_gap) / step.dt

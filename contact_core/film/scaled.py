@@ -18,13 +18,13 @@ from ..reference.starvation import film_behind_meniscus, supplied_film
 from .instant import FilmState, Grid, Instant, Settings, Step
 from .lengths import FAR_FIELD_BELOW, film_size, inlet_length
 from .shared import ENTRIES, half_space, tables
+from .slow_film import SlowFilm
 
 Array = NDArray[np.float64]
 
 _TABLE_TOP = 2e10  # Pa: no oil flows above
 _LEAST_EASE = 1e-6  # below it, oil does not flow
 _SLOWEST = 0.25  # unit of speeds, in nodes per time step: below it, squeezing dominates
-_WHOLE = 1.0 + 1e-9  # nodes per time step, up to which a film is carried over
 _FASTEST_CHANGE = 2.0  # of a film in a step, up to which it is of second order
 
 
@@ -37,6 +37,7 @@ class Scaled:
     The unit of speeds is that of entrainment; in a time `step` from a film `start` it is at least a quarter of a node
     per step, so that the film of slow bodies and of bodies at rest is of order one, too. For the film beyond the grid:
     `closing`, the speed [m/s] at which the bodies approach, and `apart`, their film [m]; None: that of smooth ones.
+    `slow`: the film that stands still where grid and oil move on together.
     """
 
     def __init__(
@@ -48,8 +49,9 @@ class Scaled:
         step: Step | None = None,
         closing: float = 0.0,
         apart: float | None = None,
+        slow: SlowFilm | None = None,
     ) -> None:
-        self.now, self.grid, self.settings = now, grid, settings
+        self.now, self.grid, self.settings, self.slow = now, grid, settings, slow
         self.closing, self.apart = closing, apart
         self.step = step if start else None
         self.start = start if step else None
@@ -167,29 +169,14 @@ class Scaled:
         if self.step is None or self.start is None:
             return 0.0, np.zeros_like(self.cap)
         per_dt, mass = self.size / (self.speed * self.step.dt), self.start.mass
+        if self.slow is not None:
+            return per_dt, self.slow.carried(mass, self.step.rolled, self.now.supply)
         if self.step.order == 1 or self.start.dt == 0.0:
             return per_dt, mass
         ratio = self.step.dt / self.start.dt
         own = (1.0 + 2.0 * ratio) / (1.0 + ratio)
         old = ((1.0 + ratio) * mass - ratio**2 / (1.0 + ratio) * self.start.mass_before) / own
         return own * per_dt, np.clip(old, mass / _FASTEST_CHANGE, mass * _FASTEST_CHANGE)
-
-    @cached_property
-    def slow_mass(self) -> Array | None:
-        """Running mean of the mass [m] before this step; None where no film is carried over as it is.
-
-        A march begins with the film of smooth bodies under Hertz's pressure.
-        """
-        if self.start is None or self.step is None or self.step.order != 1 or not self.settings.fitted:
-            return None
-        speed, shape = self.now.entrainment_speed, self.now.shape
-        if self.now.conserving or self._first > 0 or not 0.0 < speed * self.step.dt <= _WHOLE * self.grid.spacing:
-            return None
-        if self.start.slow_mass.size > 1:
-            return self.start.slow_mass
-        pressure = self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300))
-        gap = shape.gap(self.x, self.y, self.size) + self.half_space.deform(pressure)
-        return np.asarray((gap - gap.min()) * self.h_unit + max(self.smooth_film, self.settings.floor))
 
     @cached_property
     def surfaces(self) -> HalfSpace:
@@ -206,6 +193,7 @@ class Scaled:
         ease, thinned = self._oil(viscosity)
         images = self._with_images
         weight = images(weight)
+        conserving = now.conserving and self.slow is None  # what moves along conserves it anyway
         if self.grid.periodic:
             weight[[0, -1]] = 0.0
         return Problem(
@@ -226,12 +214,12 @@ class Scaled:
             edge=images(edge),
             weight=weight,
             lumped=self.settings.lumped,
-            conserving=now.conserving,
-            supply=None if now.supply is None else now.supply / self.h_unit,
+            conserving=conserving,
+            supply=now.supply / self.h_unit if conserving and now.supply is not None else None,
             first=self._first,
             wrapped=self.grid.periodic,
             fitted=self.settings.fitted,
-            slow_mass=None if self.slow_mass is None else images(self.slow_mass / self.h_unit),
+            slow_mass=None if self.slow is None else images(self.slow.now / self.h_unit),
             stress=self.stress,
             depth=self.fade,
         )

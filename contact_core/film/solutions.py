@@ -16,7 +16,6 @@ Array = NDArray[np.float64]
 
 LOAD_ACCEPTED = 1e-3  # relative error of the load, up to which a film is accepted
 _BEYOND_KNOWN = 0.05  # relative error of the formula for the load beyond the grid
-_MEMORY = 2.0  # half widths of the contact that the oil passes while the running mean of a film follows
 
 
 @dataclass(frozen=True)
@@ -96,9 +95,6 @@ def solution(scaled: Scaled, found: Solution, route: str, algorithm: str) -> Fil
         np.ones((1, 1)) if scaled.now.ease is None else scaled.now.ease,
         np.zeros((1, 1)) if scaled.now.thinned is None else scaled.now.thinned,
     )
-    if scaled.slow_mass is not None and scaled.step is not None:
-        part = min(1.0, scaled.step.dt * scaled.now.entrainment_speed / (_MEMORY * scaled.a))
-        state = replace(state, slow_mass=scaled.slow_mass + part * (state.mass - scaled.slow_mass))
     if scaled.start and scaled.step and scaled.step.order == 2:
         state = replace(state, mass_before=scaled.start.mass, dt=scaled.step.dt)
     capped = it.solid & (it.pressure >= scaled.cap)

@@ -343,7 +343,7 @@ class FittedSharing:
     def exposed(self, area_ratio: Numbers, *, rougher: bool, dry: bool = False) -> Numbers:
         """Return the share of a body's points within Hertz's width that touch the other body in one pass.
 
-        `dry`: where the solids carry so much that dry contact drives the blocks (control.dry_above).
+        `dry`: where dry contact drives the blocks (control.driver).
         """
         if dry:
             return -expm1(-(self.exposure_dry_rougher if rougher else self.exposure_dry_smoother) * area_ratio)

@@ -80,9 +80,8 @@ def _exposed(case: Case, side: Side, contact: MeanContact, mean: Mean) -> tuple[
     scene = case.scene
     first, second = scene.surface_1.rms, scene.surface_2.rms
     as_rougher = (True, False) if first == second else ((first > second) == (side.body == 0),)  # alike: between both
-    driver, width = scene.control.driver, _width(case)
-    dry = driver == "dry" or (driver == "auto" and contact.load_ratio > scene.control.dry_above)
-    dry &= DOSES[scene.tribofilm.dose].whole_pass  # it has fewer instants in a pass
+    width = _width(case)
+    dry = scene.control.driver == "dry" and DOSES[scene.tribofilm.dose].whole_pass  # it has fewer instants in a pass
     sharing = regression_film(scene).sharing
     curves = [sharing.exposed(contact.area_ratio, rougher=rougher, dry=dry) for rougher in as_rougher]
     exposed = sum(curves) / len(curves)

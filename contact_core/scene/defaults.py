@@ -63,7 +63,7 @@ _LAWS: dict[str, tuple[dict[str, Any], str, dict[str, Ends]]] = {
     ),
 }  # fmt: skip
 _PLASTICITY = {"set": "steel"}
-_CONTROL = {"change": "3 nm", "dry_above": 0.8, "input_change": 0.02}
+_CONTROL = {"change": "3 nm", "input_change": 0.02}
 _FLOOR = "1 nm"
 _LENGTH = 8e-6  # m, of roughness: as in the shipped scenes
 _HIGHEST = 1e-7  # m, microroughness that a scene which gives none may have, at most

@@ -107,23 +107,23 @@ class Control:
     change: float = parameter(
         "m", "largest change of film or wear in a block, as rms over the track", least=1e-11, most=1e-6
     )
-    dry_above: float = parameter(
-        "", "contact_load_ratio above which dry pressures drive the blocks", least=0.0, most=2.0
-    )
     input_change: float = parameter("", "relative change of an input that asks for a new solution", least=0.0, most=1.0)
     driver: str = parameter(
         "",
-        "pressures that drive tribofilm and wear: mixed lubrication's, dry contact's, or chosen by contact_load_ratio",
-        choices=("auto", "mixed", "dry"),
-        default="auto",
+        "contact whose pressures drive tribofilm and wear: with the film between the bodies, or dry",
+        choices=("mixed", "dry"),
+        default="mixed",
     )
     dry_instants: int = parameter("", "instants of a block driven dry", least=1, most=1000, default=3)
     mixed_instants: int = parameter(
         "",
-        "instants of a block driven by mixed lubrication; 0: as many as an eighth of a pass takes",
+        "way of the oil in a block driven by mixed lubrication, in nodes; 0: a sixteenth of a pass",
         least=0,
         most=1000,
         default=0,
+    )
+    nodes_per_instant: float = parameter(
+        "", "way of the oil from instant to instant of a mixed block, in nodes", above=0.0, most=8.0, default=1.0
     )
     longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=120.0)
     inputs: str = parameter(

@@ -116,16 +116,12 @@ class ContactState:
     held: float  # time since the last block [s]
     hold: float  # longest time until the next block [s]
     settling: float  # time [s] for which the film still follows inputs that have changed (control.inputs)
-    dry_blocks_left: int  # blocks until the share of the solids is measured again
-    share: float  # of the load on the solids of a dry contact; 1: all of it, or not measured yet
     trends: Trends
     temperatures: tuple[float, float] | None  # of the bodies [K], for heat.bulk = "lumped"; None: none yet
     outputs: Outputs
     means: tuple[Mean, Mean] | None = None  # of the regression level, newer than the patches; None: these are current
     solved: Solved | None = None  # blocks that the level `auto` has solved; None: none yet
-    # of the oil in the mixed solutions that measured `share`, over the load that it carries; it holds in dry blocks
-    oil_friction: float = 0.0
-    oil_rolling: float = 0.0  # resistance
+    window: float = 0.0  # way [m] by which the nodes of the contact lie further along +x: they move on with the oil
     below: Below | None = None  # stresses and damage below the surfaces; None: none sampled yet
     classes: Classes | None = None  # damage at the regression level; None: that of `below`
 
@@ -258,5 +254,5 @@ def initial_state(scene: Scene) -> ContactState:
     arrays = dict.fromkeys(Body.ARRAYS, zeros) | {"since": np.full(shape, np.inf)}
     body = Body(**arrays, offset=0.0, cycles=0.0, worn=0.0, noise=0.0)
     return ContactState(
-        scene.digest(), 0.0, (body, body), None, "", None, 0.0, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), None, Outputs()
+        scene.digest(), 0.0, (body, body), None, "", None, 0.0, 0.0, 0.0, 0.0, Trends.fresh(), None, Outputs()
     )

@@ -46,8 +46,8 @@ def facing_surfaces(scene: Scene, state: ContactState, *, moving: bool = False) 
 
     moving: at their very places, as a film that follows their motion needs it; else at the nearest nodes.
     """
-    nodes = [patch_nodes(scene, body) for body in state.bodies]
-    parts = [part_of_node(scene, body) * moving for body in state.bodies]
+    nodes = [patch_nodes(scene, body, state.window) for body in state.bodies]
+    parts = [part_of_node(scene, body, state.window) * moving for body in state.bodies]
     bare = bare_heights(scene, state.rows)
     patches = [heights_of(z, body) for z, body in zip(bare, state.bodies, strict=True)]
     heights, roughness = (
@@ -59,7 +59,7 @@ def facing_surfaces(scene: Scene, state: ContactState, *, moving: bool = False) 
 
 def facing_films(scene: Scene, state: ContactState) -> tuple[tuple[Array, Array], Array]:
     """Return `tribofilms` and `plastic` of the facing surfaces."""
-    nodes = [patch_nodes(scene, body) for body in state.bodies]
+    nodes = [patch_nodes(scene, body, state.window) for body in state.bodies]
     first, second = (on_grid(body.tribofilm, n) for body, n in zip(state.bodies, nodes, strict=True))
     plastic = np.zeros((state.rows, scene.film.points))
     if scene.plasticity.remembers:
@@ -75,7 +75,7 @@ def added_friction(scene: Scene, state: ContactState, cover: Array) -> Array | N
     law = scene.oxide
     if not law.grows:
         return None
-    first, second = (law.cover(on_grid(body.oxide, patch_nodes(scene, body))) for body in state.bodies)
+    first, second = (law.cover(on_grid(body.oxide, patch_nodes(scene, body, state.window))) for body in state.bodies)
     added: Array = law.added_friction(scene.boundary_friction.bare, 0.5 * (first + second), cover)
     return added
 
@@ -109,14 +109,14 @@ def middle_rows(scene: Scene, rows: int) -> NDArray[np.bool_]:
     return track_rows(scene, rows, _MIDDLE)
 
 
-def patch_nodes(scene: Scene, body: Body) -> int:
-    """Return the whole nodes by which a body's patch is shifted along +x."""
-    return round(body.offset / scene.film.spacing) % (scene.film.points - 1)
+def patch_nodes(scene: Scene, body: Body, window: float = 0.0) -> int:
+    """Return the whole nodes by which a body's patch is shifted along +x on the grid, which lies `window` [m] ahead."""
+    return round((body.offset - window) / scene.film.spacing) % (scene.film.points - 1)
 
 
-def part_of_node(scene: Scene, body: Body) -> float:
+def part_of_node(scene: Scene, body: Body, window: float = 0.0) -> float:
     """Return the part of a node, -1/2 to 1/2, by which a body lies further along +x than `patch_nodes`."""
-    where = body.offset / scene.film.spacing
+    where = (body.offset - window) / scene.film.spacing
     return where - round(where)
 
 
@@ -146,7 +146,8 @@ def on_patch(grid: NDArray[Any], nodes: int) -> NDArray[Any]:
 
 def on_patches(scene: Scene, state: ContactState, fields: tuple[NDArray[Any], NDArray[Any]]) -> list[NDArray[Any]]:
     """Return a field of the grid per body on the patches of both bodies."""
-    return [on_patch(field, patch_nodes(scene, body)) for field, body in zip(fields, state.bodies, strict=True)]
+    pairs = zip(fields, state.bodies, strict=True)
+    return [on_patch(field, patch_nodes(scene, body, state.window)) for field, body in pairs]
 
 
 def bare_heights(scene: Scene, rows: int) -> tuple[Array, Array]:

@@ -56,7 +56,7 @@ def test_a_failure_of_the_solver_and_an_unexpected_error_are_told_apart(stepped,
 
 
 def test_solutions_that_missed_their_tolerance_are_told_by_the_solver(host):
-    host.initialise(film__iterations=1, film__tolerance=1e-12, control__dry_above=2.0)
+    host.initialise(film__iterations=1, film__tolerance=1e-12)
     host.step(60.0)
     assert RangeFlag.NOT_CONVERGED in RangeFlag(host.get("range_flags"))
     assert (fmi2OK, "logSolver", f"range_flags: {RangeFlag.NOT_CONVERGED.text}.") in host.entries

@@ -34,6 +34,24 @@ def test_the_pressure_flattens_the_bodies_onto_each_other(ratio):
         assert gap == approx(hertz.approach, rel=1e-9, abs=0.0)
 
 
+@pytest.mark.parametrize("ratio", [0.1, 1.0, 8.0])
+def test_the_gap_around_the_contact_is_what_the_pressure_leaves_open(ratio):
+    """By a quadrature over the ellipse, r sqrt(1 - r^2) in r^2 and the trapezoidal rule in the angle."""
+    radius_x, radius_y = 10e-3, 10e-3 * ratio
+    hertz = hertz_point(50.0, radius_x, radius_y, E)
+    s, weights = np.polynomial.legendre.leggauss(64)
+    r, angle = np.sqrt(1.0 - (0.5 + 0.5 * s) ** 2), 2.0 * np.pi * np.arange(256) / 256
+    of_ring = 0.5 * weights * (0.5 + 0.5 * s) ** 2 * 2.0 * np.pi / 256 * hertz.a * hertz.b * hertz.pressure_max
+    x, y = np.array([0.4, 1.3, 3.0]) * hertz.a, np.array([0.0, 1.4]) * hertz.b
+    gap = hertz.gap(x, y, E)
+    assert gap[0, 0] == 0.0
+    for j, i in ((0, 1), (0, 2), (1, 0), (1, 2)):
+        away = np.hypot(x[i] - hertz.a * np.outer(r, np.cos(angle)), y[j] - hertz.b * np.outer(r, np.sin(angle)))
+        settled = 2.0 / (np.pi * E) * float((of_ring[:, None] / away).sum())
+        open_by = x[i] ** 2 / (2.0 * radius_x) + y[j] ** 2 / (2.0 * radius_y) - hertz.approach + settled
+        assert gap[j, i] == approx(open_by, rel=1e-4, abs=0.0)
+
+
 @pytest.mark.parametrize(
     ("difference", "long", "short", "approach"),
     [
@@ -190,6 +208,8 @@ def test_a_line_is_the_limit_of_a_long_ellipse():
     per_length = 1.5 * 100.0 / (2.0 * ellipse.b)
     line = hertz_line(per_length, 5e-3, 1.0, E)
     assert (line.a, line.pressure_max) == approx((ellipse.a, ellipse.pressure_max), rel=1e-4)
+    x, middle = np.array([0.5, 1.2, 4.0]) * line.a, np.zeros(1)
+    assert line.gap(x, middle, E) == approx(ellipse.gap(x, middle, E), rel=2e-3)
 
 
 @pytest.mark.parametrize("line", [False, True])

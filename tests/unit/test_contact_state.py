@@ -54,8 +54,6 @@ def used(scene: Scene) -> ContactState:
         held=1.0 / 3.0,
         hold=np.inf,
         settling=3e-4,
-        dry_blocks_left=4,
-        share=6.0 / 7.0,
         trends=replace(Trends.fresh().followed(dict.fromkeys(NAMES, 1.0 / 3.0), {}, 0.5, 2.5), gain=2.0 / 3.0),
         temperatures=(1000.0 / 3.0, 1001.0 / 3.0),
         outputs=Outputs(**outputs),

@@ -64,7 +64,7 @@ def test_the_scar_is_the_cap_of_its_volume_under_an_even_pressure(hour):
 
 @pytest.mark.long
 def test_bodies_of_one_wear_coefficient_lose_archards_volume_of_the_load_that_solids_carry():
-    scene = Scene.from_toml("pin_on_disc", COARSE | {"tribofilm.model": "none", "control.dry_above": "0"})
+    scene = Scene.from_toml("pin_on_disc", COARSE | {"tribofilm.model": "none"})
     state, op, expected, before = initial_state(scene), scene.operation.point, 0.0, None
     for _ in range(30):
         state, outputs = advance(scene, op, state, 20.0)

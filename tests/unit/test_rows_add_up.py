@@ -6,12 +6,9 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import Scene, advance, initial_state, shipped_scenes, solve
-from contact_core.deterministic.transient import dry_instant
-from contact_core.scene import Case
+from contact_core import Scene, advance, initial_state, shipped_scenes
 
 COARSE = CHEAP | {"film.points": "25", "surface_1.correlation_length": "22 um", "surface_2.correlation_length": "22 um"}
-HALF_DRY = {"control.dry_above": "0.3", "control.longest": "60 s", "control.mixed_instants": "2"}
 FIELD = {"heat.model": "field", "heat.bulk.model": "lumped"} | {
     f"heat.bulk.{name}_{body}": value
     for name, value in (("heat_capacity", "500 J/K"), ("conductance", "0.05 W/K"))
@@ -53,19 +50,18 @@ def points(op):
     ]
 
 
-MIXED = {"control.driver": "mixed", "control.mixed_instants": "2"}
+MIXED = {"control.longest": "60 s", "control.mixed_instants": "2"}
 
 
 @pytest.mark.parametrize(
     ("level", "changes"),
     [
-        pytest.param("deterministic", HALF_DRY, id="half_dry", marks=pytest.mark.long),
-        pytest.param("deterministic", HALF_DRY | FIELD, id="field"),
+        pytest.param("deterministic", MIXED | FIELD, id="field"),
         pytest.param("deterministic", {"control.driver": "dry"}, id="dry"),
         pytest.param("deterministic", MIXED, id="mixed", marks=pytest.mark.long),
         pytest.param("regression", {}, id="regression"),
         pytest.param("regression", FIELD, id="regression_field"),
-        pytest.param("auto", HALF_DRY, id="auto", marks=pytest.mark.long),
+        pytest.param("auto", MIXED, id="auto", marks=pytest.mark.long),
     ],
 )
 def test_every_row_of_a_changing_duty_adds_up_and_opposes_the_sliding(level, changes):
@@ -87,38 +83,6 @@ def test_rows_add_up_while_a_film_follows_its_inputs_and_where_time_stands_still
     for now in (back, replace(back, load=0.8 * op.load), op):
         state, outputs = advance(scene, now, state, 2e-4)
         checked(now, outputs)
-
-
-@pytest.mark.long
-def test_friction_of_the_oil_neither_turns_nor_drops_where_blocks_turn_dry():
-    scene, state, op = cheap(CHEAP | HALF_DRY | {"tribofilm.model": "none", "control.longest": "20 s"})
-    state, outputs = advance(scene, op, state, 0.0)
-    counts, fluid = [], []
-    for _ in range(12):
-        state, outputs = advance(scene, op, state, 20.0)
-        checked(op, outputs)
-        counts.append((outputs.blocks_mixed, outputs.blocks_dry))
-        fluid.append(outputs.friction_fluid)
-    assert outputs.blocks_dry > 5
-    only, fresh, _ = cheap(CHEAP | HALF_DRY | {"tribofilm.model": "none", "control.driver": "mixed"})
-    _, mixed = advance(only, op, fresh, 240.0)
-    share = (1.0 - outputs.contact_load_ratio) / (1.0 - mixed.contact_load_ratio)
-    assert fluid[-1] == approx(share * mixed.friction_fluid, rel=0.3)
-    assert max(fluid) < 2.0 * min(fluid)
-
-
-def test_oil_of_a_dry_instant_has_the_friction_over_load_that_was_measured():
-    scene, state, op = cheap()
-    state = replace(state, share=0.7, oil_friction=0.02)
-    _, fields = dry_instant(Case.bind(scene, op), state, [0.0, 0.0])
-    carried = fields.fluid_pressure.sum() * scene.film.spacing**2
-    assert carried == approx(0.3 * op.load, rel=0.01)
-    assert fields.friction.force_fluid == approx(0.02 * carried, rel=1e-9)
-    assert fields.friction.power == approx(
-        -(fields.friction.force_fluid + fields.friction.force_solid) * op.sliding_speed
-    )
-    viscous = solve(scene, op, state, dry=True, solid_share=0.7)
-    assert 0.0 < viscous.friction.force_fluid < 0.1 * fields.friction.force_fluid
 
 
 @pytest.mark.parametrize("level", ["deterministic", "regression"])

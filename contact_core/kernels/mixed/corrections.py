@@ -38,13 +38,13 @@ def correct_gap(  # type: ignore[no-untyped-def]
     stiff,
     dh,
     sums,
-    share,
+    flows,
     filling,
     first,
 ):
     """Compute the residual r, the stiff zone, and the change of gap dh in it that removes the residual.
 
-    dh is marched downstream. share: the part of the carried mass that depends on that of now; None: all of it.
+    dh is marched downstream. flows: True if what is carried depends on the mass of now.
 
     r: net inflow of mass per area, zero on solid contacts and on the edge. stiff: where elasticity rules, solid
     contacts and fluid nodes whose faces hardly pass any pressure flow. dh: on solid contacts, to the floor; zero
@@ -120,9 +120,8 @@ def correct_gap(  # type: ignore[no-untyped-def]
                 if is_stiff:
                     faces = (west + east + south + north) * per_dx2
                     give = per_patch + carried_at(own, floor, stress, depth) * per_depth
-                    part = 1.0 if share is None else share[j, i]
-                    upstream = part * (a1 * before + a2 * before_2)
-                    own_lift = per_dt + part * (a0 - per_dt)
+                    upstream = a1 * before + a2 * before_2 if flows else 0.0
+                    own_lift = a0 if flows else per_dt
                     change = (value * gap - m * upstream) / (m * own_lift + faces * give * gap)
                     change = max(change, min(own_rest - own, 0.0))  # solids stop it there
                     if here >= cap[j, i]:

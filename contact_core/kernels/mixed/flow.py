@@ -12,9 +12,14 @@ upstream, kept between the masses of both nodes. m_f = t m_c + (1 - t) m_u, t = 
 s = e_f / (compliance dx^2).
 
 A moving pattern must not spread because time goes by in steps: bodies of nearly one speed would pump oil under each
-other's asperities. In a time step of at most a node, what deviates from a slowly changing film M is therefore carried
-over exactly: the mass that passes a face is that upstream of it at the beginning of the step, of third order in C, the
-nodes per step (Leonard's QUICKEST). m_u is that of the deviation, and of M as before.
+other's asperities. Where the nodes move on with the oil (`Problem.slow_mass`), the film is what moves with it, m - M,
+and a film M that stands still and hardly changes. Only M passes the faces. A flow that is constant within the cell but
+for what moves along is exact with
+
+    m_f = t m_M + (1 - t) m_u(M),   m_M = (mean of M / h^3) / I_3,
+
+for m - M needs no pressure: with m_c, which stands still, roughness that rolls would be pumped along by as much as the
+step moves it.
 
 The gap within a cell along the flow is the cubic through four nodes; across the flow it is straight, 1 / I_3 =
 2 h_1^2 h_2^2 / (h_1 + h_2). Source of fitted fluxes: Scharfetter & Gummel, IEEE Trans. Electron Devices 16 (1969) 64,
@@ -108,6 +113,13 @@ def gap_means(gap, conductance, width, across):  # type: ignore[no-untyped-def]
         first, last = 3.0 * (g[0] - g[1]) + g[2], 3.0 * (g[nx - 1] - g[nx - 2]) + g[nx - 3]
         conductance[j, 0], width[j, 0] = _along(first, g[0], g[1], g[2])
         conductance[j, nx - 2], width[j, nx - 2] = _along(g[nx - 3], g[nx - 2], g[nx - 1], last)
+    _across(gap, across)
+
+
+@jit
+def _across(gap, across):  # type: ignore[no-untyped-def]
+    """Compute 1 / I_3 of the faces across the flow."""
+    ny, nx = gap.shape
     for j in range(ny - 1):
         for i in range(nx):
             here, there = gap[j, i], gap[j + 1, i]
@@ -115,21 +127,44 @@ def gap_means(gap, conductance, width, across):  # type: ignore[no-untyped-def]
 
 
 @jit
-def carried_over(mass, slow, nodes, out):  # type: ignore[no-untyped-def]
-    """Compute m_u of a time step: the mean mass that passes each face while the film moves by `nodes`, at most 1.
+def _slow_width(before, left, right, after, slow_before, slow_left, slow_right, slow_after):  # type: ignore[no-untyped-def]
+    """Return 1 / I_3 and the mean of M / h^3 over I_3 of a cell, from gaps and slow masses M of four nodes in a row."""
+    least, most = _LEAST * min(left, right), _MOST * max(left, right)
+    low, high = _LEAST * min(slow_left, slow_right), _MOST * max(slow_left, slow_right)
+    carried, cube = 0.0, 0.0
+    for q in range(4):
+        a, b, c, d = _CUBIC[0, q], _CUBIC[1, q], _CUBIC[2, q], _CUBIC[3, q]
+        thin = 1.0 / min(max(a * before + b * left + c * right + d * after, least), most)
+        slow = min(max(a * slow_before + b * slow_left + c * slow_right + d * slow_after, low), high)
+        part = _WEIGHTS[q] * thin * thin * thin
+        carried += part * slow
+        cube += part
+    return 1.0 / cube, carried / cube
 
-    mass [ny, nx] is that at the beginning of the step, slow [ny, nx] the part of it that hardly changes in time.
-    """
-    ny, nx = mass.shape
+
+@jit
+def slow_means(gap, slow, conductance, width, across):  # type: ignore[no-untyped-def]
+    """Compute the same as `gap_means`, with m_M in place of I_2 / I_3."""
+    ny, nx = gap.shape
+    for j in range(ny):
+        g, s = gap[j], slow[j]
+        for i in range(nx - 1):
+            g_0 = g[i - 1] if i > 0 else 3.0 * (g[0] - g[1]) + g[2]
+            s_0 = s[i - 1] if i > 0 else 3.0 * (s[0] - s[1]) + s[2]
+            g_3 = g[i + 2] if i < nx - 2 else 3.0 * (g[nx - 1] - g[nx - 2]) + g[nx - 3]
+            s_3 = s[i + 2] if i < nx - 2 else 3.0 * (s[nx - 1] - s[nx - 2]) + s[nx - 3]
+            conductance[j, i], width[j, i] = _slow_width(g_0, g[i], g[i + 1], g_3, s_0, s[i], s[i + 1], s_3)
+    _across(gap, across)
+
+
+@jit
+def slow_upstream(slow, out):  # type: ignore[no-untyped-def]
+    """Compute m_u(M) of the faces along the flow, [ny, nx]."""
+    ny, nx = slow.shape
     for j in range(ny):
         for i in range(nx - 1):
-            left, right = mass[j, i] - slow[j, i], mass[j, i + 1] - slow[j, i + 1]
-            before = mass[j, i - 1] - slow[j, i - 1] if i > 0 else 2.0 * left - right
-            moving = 0.5 * (left + right) - 0.5 * nodes * (right - left)
-            moving -= (1.0 - nodes * nodes) / 6.0 * (right - 2.0 * left + before)
-            out[j, i] = min(max(moving, min(left, right)), max(left, right))
             before = slow[j, i - 1] if i > 0 else 2.0 * slow[j, i] - slow[j, i + 1]
-            out[j, i] += _upstream(before, slow[j, i], slow[j, i + 1])
+            out[j, i] = _upstream(before, slow[j, i], slow[j, i + 1])
 
 
 @jit
@@ -142,12 +177,12 @@ def _upstream(before, left, right):  # type: ignore[no-untyped-def]
 @jit
 def face_flows(  # type: ignore[no-untyped-def]
     f, gap, mass, rho, fluid, potential, mobility, thinned, floor, step, per_stiff, fitted, conductance, width, across,
-    ex, ey, share, carried, passed,
+    ex, ey, share, carried, slow,
 ):  # fmt: skip
     """Compute mobilities ex, ey, the share t and the carried mass m_f of all faces, from properties of the nodes.
 
     per_stiff: 1 / (compliance dx^2). fitted: False for second order upstream and means of the nodes' mobilities.
-    passed: m_u of a time step, see `carried_over`; None: that of the mass now.
+    slow: m_u(M), where width is m_M; None: the mass of now stands still.
     """
     ny, nx = f.shape
     for j in range(ny):
@@ -173,11 +208,11 @@ def face_flows(  # type: ignore[no-untyped-def]
             if gap[j, i] > floor and gap[j, i + 1] > floor:
                 s = e * per_stiff
                 t = 1.0 - 1.0 / (1.0 + s * s)
-            if passed is None:
-                upstream = _upstream(mass[j, i - 1] if i > 0 else 2.0 * left - right, left, right)
-            else:
-                upstream = passed[j, i]
             share[j, i] = t
+            if slow is not None:
+                carried[j, i] = t * width[j, i] + (1.0 - t) * slow[j, i]
+                continue
+            upstream = _upstream(mass[j, i - 1] if i > 0 else 2.0 * left - right, left, right)
             carried[j, i] = t * dense * width[j, i] + (1.0 - t) * upstream
     for j in range(ny - 1):
         for i in range(nx):
@@ -201,12 +236,13 @@ class Flow:
     """Properties of the oil at the nodes and flows through the faces of a film, all [ny, nx].
 
     floor: gap beside which the film is carried along as it is; step of the tables; per_stiff: 1 / (compliance dx^2);
-    fitted, passed: see `face_flows`.
+    fitted: see `face_flows`; slow_mass: M of `Problem`.
     """
 
     def __init__(self, shape: tuple[int, int], floor: float, step: float, per_stiff: float, fitted: bool) -> None:
         self._scales, self.fitted = (floor, step, per_stiff), fitted
-        self.passed: Array | None = None
+        self.slow_mass: Array | None = None
+        self.slow: Array | None = None
         scratch: list[Array] = [np.zeros(shape) for _ in range(11)]
         self.gap, self.rho, self.fluid, self.potential = scratch[:4]
         self.conductance, self.width, self.across = scratch[4:7]
@@ -218,8 +254,8 @@ class Flow:
         per_stiff = 1.0 / (problem.compliance * problem.spacing**2)
         flow = Flow(problem.cap.shape, problem.floor, problem.step, per_stiff, problem.fitted)
         if problem.slow_mass is not None:
-            flow.passed = np.zeros(problem.cap.shape)
-            carried_over(problem.mass_old, problem.slow_mass, problem.nodes_per_step, flow.passed)
+            flow.slow_mass, flow.slow = problem.slow_mass, np.zeros(problem.cap.shape)
+            slow_upstream(flow.slow_mass, flow.slow)
         return flow
 
     @property
@@ -239,11 +275,13 @@ class Flow:
 
     def measure(self) -> None:
         """Compute what the faces owe to the gap."""
-        if self.fitted:
+        if self.slow_mass is not None:
+            slow_means(self.gap, self.slow_mass, self.conductance, self.width, self.across)
+        elif self.fitted:
             gap_means(self.gap, self.conductance, self.width, self.across)
 
     def drive(self, f: Array, full: Array, mobility: Array, thinned: Array) -> None:
         """Compute the flows through all faces from fluid pressure, full masses and properties of the oil."""
         nodes = (self.gap, full, self.rho, self.fluid, self.potential, mobility, thinned)
         means = (self.conductance, self.width, self.across)
-        face_flows(f, *nodes, *self._scales, self.fitted, *means, *self.faces, self.share, self.carried, self.passed)
+        face_flows(f, *nodes, *self._scales, self.fitted, *means, *self.faces, self.share, self.carried, self.slow)

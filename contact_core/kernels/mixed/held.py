@@ -176,7 +176,7 @@ class _Held(Iteration):
         scales = (*q.layer, *q.terms, q.compliance, self.patch)
         state = (self.p, self.f, q.cap, self.solid, self.h, self.mass, q.mass_old, *flow.through)
         out = (self.r, self.stiff, self.dh, self.sums)
-        self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, None, None, 1)
+        self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, True, None, 1)
         if q.wrapped:
             wrap(self.solid)
 

@@ -221,9 +221,11 @@ class _Film:
         rest, give, gain, lack = self.rest, self.give, self.gain, self.lack
         by_f, by_h, scale, flow = self.by_f, self.by_h, self.scale, self.flow
         linearisation.slopes(self.f, solid, self.h, q.floor, q.step, q.density, self.slope)
-        film = (self.f, flow.gap, flow.fluid, q.thinned, *flow.faces, flow.share, q.fitted, *q.terms, self.slope)
+        wedge = q.wedge if flow.slow is None else 0.0  # what M carries does not depend on the mass of now
+        film = (self.f, flow.gap, flow.fluid, q.thinned, *flow.faces, flow.share, q.fitted)
+        terms = (q.per_dt, wedge, q.spacing, self.slope)
         filling, first = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
-        linearisation.linearise(*film, first, filling, by_f, by_h)
+        linearisation.linearise(*film, *terms, first, filling, by_f, by_h)
         linearisation.follow_gap(by_f, gain, by_h)
         yields = held & (self.p >= q.cap) & (self.h < rest)
         wet = ((self.f > 0.0) | (self.r > 0.0)) & ~((self.p >= q.cap) & (self.r >= 0.0))
