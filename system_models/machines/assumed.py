@@ -80,12 +80,13 @@ def worth(kind: Kind, assembly: Assembly, duty: Timeline) -> Worth | None:
 
 
 def _hardest(kind: Kind, assembly: Assembly, duty: Timeline) -> tuple[float, dict[str, float]]:
-    """Return time [s] and signals of the state of the duty with the largest load times speed times duration."""
-    rows, found = duty.filled(), dict[tuple[tuple[str, float], ...], list[float]]()
-    for (time, signals), end in zip(rows, [*(time for time, _ in rows[1:]), duty.end], strict=True):
+    """Return time [s] and signals of the state of the run with the largest load times speed times duration."""
+    stop = assembly.settings["stop_time"]
+    rows = [row for row in duty.filled() if row[0] < stop]
+    found: dict[tuple[tuple[str, float], ...], list[float]] = {}  # by signals: where they begin, and how long they last
+    for (time, signals), end in zip(rows, [*(time for time, _ in rows[1:]), min(duty.end, stop)], strict=True):
         found.setdefault(tuple(signals.items()), [time]).append(end - time)
     some = list(found.items())[:: math.ceil(len(found) / _MOST_ROWS)]
-
     points = {name: contact.own_scene.operation.point for name, contact in assembly.contacts.items()}
 
     def work(row: tuple[tuple[tuple[str, float], ...], list[float]]) -> float:

@@ -82,15 +82,19 @@ def test_all_heat_leaves_once_temperatures_have_settled(name):
 
 
 def test_conductances_are_worth_kelvins_and_what_only_delays_nothing():
-    found = assumed.worth(
-        *machine("bearing_209", "housing.links.conductance", "shaft.inertia", "housing.nodes.heat_capacity")
-    )
+    found = assumed.worth(*machine("bearing_209", "housing.links.conductance", "shaft.inertia"))
     torque, oil = found.halves["bearing.friction_torque"], found.halves["housing.temperature_oil"]
     assert 3.0 < oil.together < 30.0
     assert [*torque.parts] == [*oil.parts] == ["housing.links.conductance"]
     row = assumed.table(found)[1]
     assert row[0] == "housing.links.conductance"
     assert row[2].endswith(" %")
+
+
+def test_the_state_with_most_work_is_one_of_the_run():
+    kind, assembly, duty = machine("gear_fzg_c")
+    short = replace(assembly, settings={**assembly.settings, "stop_time": 5.0 * 3600.0})
+    assert [assumed._hardest(kind, each, duty)[0] for each in (assembly, short)] == [81.0 * 3600.0, 3600.0]
 
 
 def test_half_widths_stand_beside_the_results_in_their_units():
