@@ -122,14 +122,18 @@ class Accumulator:
             means["rolling_resistance"] = rolling + self.beyond / self.count
         return means
 
-    def spread(self, *, apart: bool) -> dict[str, float]:
-        """Return the standard deviation of these means; `apart`: the instants are independent of each other.
+    def spread(self, alike: float) -> dict[str, float]:
+        """Return the standard deviation of these means; `alike`: mean correlation of two instants.
 
-        What the mean film has left of the roughness's own rolling resistance scatters as if they were.
+        Alike instants scatter less than their mean does. What the mean film has left of the roughness's own rolling
+        resistance scatters as if they were independent of each other.
         """
+        n = self.count
         found = {name: float(np.std([seen[name] for seen in self.outputs])) for name in self.outputs[0]}
-        independent = found.keys() if apart else ("rolling_resistance",)
-        return found | {name: found[name] / self.count**0.5 for name in independent}
+        factor = ((1.0 + (n - 1) * alike) / (max(n - 1, 1) * (1.0 - alike))) ** 0.5
+        return {name: found[name] * factor for name in found} | {
+            "rolling_resistance": found["rolling_resistance"] / n**0.5
+        }
 
 
 def _exposures(case: Case, fields: ContactFields) -> tuple[Array, Array]:

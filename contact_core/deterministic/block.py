@@ -21,7 +21,7 @@ from .accumulator import Accumulator
 from .growth_and_wear import followed, stable_time, with_exposure
 from .instant import solve_instant
 from .resting import conformed, scar_time
-from .sampling import blocks_per_pass, jumps_of, rest_of_a_pass, sample_dry, sample_mixed
+from .sampling import blocks_per_pass, jumps_of, likeness, rest_of_a_pass, sample_dry, sample_mixed
 from .subsurface import is_whole, of_a_pass, outputs_of_stress, passed
 
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
@@ -124,7 +124,7 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
     surfaces = {k: v for pair in zip(case.sides, bodies, strict=True) for k, v in followed(case, *pair).items()}
     state = replace(state, bodies=bodies, below=below)
     sums.flags = sums.all_flags | _flags_of_motion(case, state, driver)
-    seen, spread = _observed(sums, surfaces, apart=driver == "dry")
+    seen, spread = _observed(sums, surfaces, likeness(case, sums.count, driver))
     trends = state.trends.followed(seen, spread, _MEMORY[kind], _lag(case.scene, driver))
     smooth, count = trends.values(), f"blocks_{driver}"
     smooth["friction_force"] = smooth["friction_solid"] + smooth["friction_fluid"]
@@ -170,11 +170,9 @@ def _below(case: Case, state: ContactState, sums: Accumulator) -> tuple[Below | 
     return damage.with_cycles(case, below, seen), outputs_of_stress(case, state.rows, seen)
 
 
-def _observed(
-    sums: Accumulator, surfaces: dict[str, float], *, apart: bool
-) -> tuple[dict[str, float], dict[str, float]]:
-    """Return means and standard deviations of what the trends follow, by name."""
-    seen, spread = sums.means(), sums.spread(apart=apart)
+def _observed(sums: Accumulator, surfaces: dict[str, float], alike: float) -> tuple[dict[str, float], dict[str, float]]:
+    """Return means and standard deviations of what the trends follow, by name; `alike`: as for `Accumulator.spread`."""
+    seen, spread = sums.means(), sums.spread(alike)
     share = seen["contact_load_ratio"]
     scatter = spread["contact_load_ratio"] / share if share > 0.0 else 0.0  # wear is in proportion to it
     rates = {name: surfaces[name] * scatter for name in RATES_FOLLOWED}

@@ -11,6 +11,8 @@ import math
 from contextlib import suppress
 from dataclasses import replace
 
+import numpy as np
+
 from ..errors import ConvergenceError
 from ..film.instant import FilmState
 from ..progress import tell
@@ -29,6 +31,8 @@ _AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which 
 _ITERATIONS = 300  # at most, of one transient step; a warm one needs about 16, after a jump up to 200
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
 _CLEAR = 3.0  # formula film over rms roughness, from which on a dry contact is no start
+# correlation of neighbours, and way of the oil over a of Hertz's contact in which it falls to zero
+_ALIKE_AT_ONCE, _ALIKE = 0.9, 0.75
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
 _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the sampled film
 _CALMING = 24  # nodes of the oil's way after a jump of a rougher one
@@ -148,6 +152,18 @@ def settling_instants(case: Case) -> int:
 def mixed_instants(scene: Scene) -> int:
     """Return the sampled instants of a mixed block: by default a sixteenth of a pass, whatever the grid."""
     return _instants(scene, scene.control.mixed_instants or math.ceil((scene.film.points - 1) / 16))
+
+
+def likeness(case: Case, count: int, driver: str) -> float:
+    """Return the mean correlation of two of so many instants of a block; dry ones lie far apart.
+
+    The share of the load on the solids: `python -m benchmarks.film.time_step alike`.
+    """
+    if driver == "dry" or not case.loaded or count < 2:
+        return 0.0
+    step = case.scene.control.nodes_per_instant * case.scene.film.spacing / (_ALIKE * case.hertz.a)
+    apart = np.arange(1, count)
+    return float(_ALIKE_AT_ONCE * ((count - apart) * np.maximum(1.0 - apart * step, 0.0)).sum() / (count - apart).sum())
 
 
 def blocks_per_pass(scene: Scene, driver: str) -> float:

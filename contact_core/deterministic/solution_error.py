@@ -20,9 +20,12 @@ from ..scene import Case
 from ..state import Error, Outputs
 from .rolling import beyond_grid
 
-# of an output over roughness: what four times as many iterations still change, and what a solution has at most that did
-# not converge
-_STOPPED, _UNCONVERGED = 0.01, 0.3
+# of an output over roughness: what stricter iterations and shorter steps still change, and what a solution has at most
+# that did not converge (`python -m benchmarks.film.time_step`)
+_STOPPED, _UNCONVERGED = 0.025, 0.3
+# error of W_c by the time step over a hard floor; rms of asperities below the grid over that of the surfaces, by which
+# it falls to 1 / e: they soften how contacts begin and end
+_HARD, _SOFTENED = 0.2, 0.05
 _ON_SOLIDS, _AT_EDGE = 0.5, 0.25  # of rolling resistance: part where solids carry all; of its share beyond the grid
 _RELATIVE: dict[str, Callable[[float, float, float], float]] = {
     "h_c": film_error,
@@ -47,11 +50,13 @@ def with_errors_of_the_solution(case: Case, out: Outputs, found: Mapping[str, Er
     What a domain that ends within the inlet takes from the film is left out where it is negligible beside the others.
     """
     rough, film = _by_grid(case)
+    share = _step_error(case, out.contact_load_ratio)
     lost, stopped = case.missing_film, _STOPPED + _UNCONVERGED * out.unconverged
     errors = {}
     for name, error in found.items():
         grid, inlet = _half_width(case, out, name, rough, film), _by_inlet(case, out, name, lost)
-        others = error._replace(grid=grid, iteration=stopped * abs(getattr(out, name)))
+        early = math.hypot(stopped * abs(getattr(out, name)), _by_step(out, name, share))
+        others = error._replace(grid=grid, iteration=early)
         errors[name] = others._replace(inlet=inlet) if inlet > NEGLIGIBLE * others.together else others
     return errors
 
@@ -70,6 +75,28 @@ def _half_width(case: Case, out: Outputs, name: str, rough: float, film: float) 
         return tribofilm_error(share, rough, film, smoother=smoother) * value
     relative = _RELATIVE.get(name.removesuffix("_1").removesuffix("_2"), other_error)
     return relative(share, rough, film) * value
+
+
+def _step_error(case: Case, load_ratio: float) -> float:
+    """Return the half width (95 %) of the error of contact_load_ratio by the steps in which contacts begin and end."""
+    rms = math.hypot(case.scene.surface_1.rms, case.scene.surface_2.rms)
+    if rms == 0.0 or not case.entrained or case.scene.control.driver == "dry":
+        return 0.0
+    soft = case.microroughness.rms if case.microroughness is not None else 0.0
+    return min(_HARD * math.exp(-soft / (_SOFTENED * rms)), min(load_ratio, 1.0))
+
+
+def _by_step(out: Outputs, name: str, share: float) -> float:
+    """Return the half width of an output by an error of contact_load_ratio, `share`."""
+    load_ratio, value = out.contact_load_ratio, abs(getattr(out, name))
+    if name == "contact_load_ratio":
+        return share
+    if name == "friction_force":
+        fluid, solid = abs(out.friction_force - out.friction_solid), abs(out.friction_solid)
+        return share * abs(solid / max(load_ratio, share, 1e-300) - fluid / max(1.0 - load_ratio, share, 1e-300))
+    if name.removesuffix("_1").removesuffix("_2") in ("friction_solid", "contact_area_ratio", "wear_depth"):
+        return share / max(load_ratio, share, 1e-300) * value
+    return 0.0
 
 
 def _by_inlet(case: Case, out: Outputs, name: str, lost: float) -> float:

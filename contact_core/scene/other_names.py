@@ -58,6 +58,9 @@ _TABLES: dict[str, tuple[tuple[str, Meant], ...]] = {
         ("ry r_y", Meant(f"Did you mean 'radius_y'? It is the {_RADIUS}, across the motion.", ("radius_y",))),
         ("l length width", Meant("The length of a line contact is 'face_width' of model = 'line' or 'roller'.", ())),
     ),
+    "control": (
+        ("dry_above", Meant("Mixed lubrication drives every block, however much the solids carry. Leave it out.", ())),
+    ),
     "operation": (
         ("u1 u_1 v1 v_1 speed1 velocity1 velocity_1", Meant("Did you mean 'speed_1'?", ("speed_1",))),
         ("u2 u_2 v2 v_2 speed2 velocity2 velocity_2", Meant("Did you mean 'speed_2'?", ("speed_2",))),
