@@ -22,6 +22,7 @@ TRIBOFILM = "tribofilm"  # of both bodies together: their growth now
 RATES = (WEAR, TRIBOFILM)  # outputs whose half widths are relative, those of their rates
 OUTPUTS = ("friction_coefficient", "h_c", "contact_load_ratio", *RATES)
 HEADS = ("assumed", "between", "friction", "h_c", "W_c", "wear rate", "tribofilm")
+Answers = Mapping[str, float]  # outputs by name; of those called as one of RATES, changes count relative
 _FILM = "h_c"
 # half widths that are told: of friction and shares, of films [m], of rates relative
 LEAST = {"friction_coefficient": 1e-4, _FILM: 1e-10, "contact_load_ratio": 1e-3, WEAR: 1e-3, TRIBOFILM: 1e-3}
@@ -48,15 +49,26 @@ def assumed(scene: Scene, op: OperatingPoint) -> Mapping[str, Assumption]:
     for nothing.
     """
     case = Case.bind(scene.at_level(Regression.name), op)
-    here = _answers(case)
-    parts: dict[str, dict[str, float]] = {name: {} for name in OUTPUTS}
-    for interval in applicable(scene):
-        ends = [_answers_at(case, end) for end in interval.ends(scene)]
-        for name in OUTPUTS:
-            half = max((_change(name, here[name], end[name]) for end in ends if end), default=0.0)
-            if half > 0.0:
-                parts[name][interval.key] = half
-    return {name: Assumption(dict(sorted(each.items(), key=lambda x: -x[1]))) for name, each in parts.items()}
+    ends = {each.key: [[_answers_at(case, end) for end in each.ends(scene)]] for each in applicable(scene)}
+    return half_widths(_answers(case), ends)
+
+
+def half_widths(here: Answers, ends: Mapping[str, Sequence[Sequence[Answers | None]]]) -> dict[str, Assumption]:
+    """Return what assumptions are worth in each answer, by the answers as it is and at both ends of what each assumes.
+
+    Of an assumption of several numbers there are such pairs for each. None: there is no answer, and it counts nothing.
+    """
+    found: dict[str, Assumption] = {}
+    for name, value in here.items():
+        halves = {key: math.hypot(*(_half(name, value, pair) for pair in pairs)) for key, pairs in ends.items()}
+        ranked = sorted(halves.items(), key=lambda each: -each[1])
+        found[name] = Assumption({key: half for key, half in ranked if half > 0.0})
+    return found
+
+
+def _half(name: str, here: float, ends: Sequence[Answers | None]) -> float:
+    """Return the larger change of an answer to either end."""
+    return max((_change(name, here, end[name]) for end in ends if end), default=0.0)
 
 
 def told(intervals: Sequence[Interval], worth: Mapping[str, Assumption]) -> list[tuple[str, ...]]:
@@ -111,6 +123,6 @@ def _growth(case: Case, state: ContactState) -> float:
 
 def _change(name: str, here: float, there: float) -> float:
     change = abs(there - here)
-    if name not in RATES or change == 0.0:
+    if name.rpartition(".")[2] not in RATES or change == 0.0:
         return change
     return min(change / here, _UNKNOWN) if here > 0.0 else _UNKNOWN

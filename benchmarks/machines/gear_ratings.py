@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from benchmarks.pages import Page
 from system_models.machines import reading
-from system_models.machines.gear_pair.micropitting import TEST_RA, gf_class, load_stage, mean_friction
+from system_models.machines.gear_pair.micropitting import TEST_RA, gf_class, mean_friction
 from system_models.machines.gear_pair.path import Array
 from system_models.machines.gear_pair.rating import Rating
 from system_models.machines.gear_pair.record import RA_OF_RQ, Record
@@ -51,7 +51,7 @@ def with_oil(record: Record, **stages: int) -> Safeties:
 
 def stages_of(record: Record) -> list[int]:
     """Load stages of the test of FVA 54/7 that a run goes through."""
-    return [load_stage(stage.torque) or 0 for stage in record.stages]
+    return [stage.number for stage in record.stages]
 
 
 # micropitting
@@ -122,6 +122,12 @@ def explain_micropitting(report: Page, records: Mapping[str, Record]) -> None:
     worn = [1e6 * record.along(f"wear_depth_{body}")[last].max() for body in (1, 2)]
     gears = [record.of(f"gearbox.temperature_{gear}")[last] - 273.15 for gear in ("pinion", "wheel")]
     worn_by = stages_of(record)[int(np.argmax([safeties.micropitting(s.last).own for s in record.stages]))]
+    rises = worn_by != record.stages[0].number
+    course = (
+        f"*rises* with the load stages, up to load stage {worn_by}"
+        if rises
+        else "falls with the load stages, from the first on"
+    )
     bare = [Safeties(fresh).micropitting(stage.last) for stage in fresh.stages]
     per = [its[-1] / its[0] for its in ([b.standard for b in bare], [b.own for b in bare])]
     ends = [with_oil(record, micropitting_stage=failing).own_failing for failing in (7, 10)]
@@ -130,8 +136,7 @@ def explain_micropitting(report: Page, records: Mapping[str, Record]) -> None:
         "### Why they disagree\n\n"
         f"- *Wear.* The standard knows Ra of the new flanks only. In the run they smooth: Ra falls from {rough[0]:.2f} to "
         f"{rough[1]:.3f} um in the mean of the stations, with {worn[0]:.2f} um worn off the pinion and {worn[1]:.2f} um off the "
-        f"wheel where it is most. So h_c/Ra *rises* with the load stages, up to load stage {worn_by}, while the standard's "
-        "falls. Without wear the run's falls too. The wear coefficient of the scene is assumed. Wear that removes roughness is a known "
+        f"wheel where it is most. h_c/Ra {course}; the standard's falls, and so does the run's without wear. The wear coefficient of the scene is assumed. Wear that removes roughness is a known "
         "way out of micropitting; additives that prevent it promote micropitting (Laine, Olver & Beveridge, Tribol. Int. 41 (2008) 1049; "
         "from memory).\n"
         f"- *The film's fall with load.* From load stage 3 to 10 the standard's ratio falls to {per[0]:.0%}, that of new flanks "

@@ -25,10 +25,9 @@ def doses(case: Case, contact: MeanContact, means: Means) -> tuple[Dose, Dose]:
     """Return the dose of each track."""
     if not case.op.slides or not case.loaded:
         return (means[0].coverage, 0.0), (means[1].coverage, 0.0)
-    exposure: Law = case.scene.tribofilm.exposure
     warm = case.op.inlet_temperature + contact.rise
     touching = case.slipping(contact.slide) * _touching(case, contact, warm)
-    oiled = float(exposure(0.0, contact.fluid_shear, contact.slide, warm))
+    oiled = _oiled(case, contact, warm)
     first, second = (
         _dose(case, side, contact, mean, touching, oiled) for side, mean in zip(case.sides, means, strict=True)
     )
@@ -47,6 +46,16 @@ def _touching(case: Case, contact: MeanContact, warm: float) -> float:
     parts = np.minimum(_PARTS, hardness_of(case.scene, contact.tribofilms) / contact.solid_pressure)
     exposure = law.exposure(parts * contact.solid_pressure, parts * contact.solid_shear, contact.slide, warm)
     return float(_OF_PARTS @ exposure)
+
+
+def _oiled(case: Case, contact: MeanContact, warm: float) -> float:
+    """Return the mean exposure under oil, whose shear stress follows Hertz's pressure where an exponential takes it."""
+    law: Any = case.scene.tribofilm
+    if not law.abrades:
+        return float(law.exposure(0.0, contact.fluid_shear, contact.slide, warm))
+    parts, weights = case.unit_hertz.pressure_nodes
+    shear = contact.fluid_shear / float(weights @ parts[:, 0]) * parts[:, 0]
+    return float(weights @ law.exposure(0.0 * shear, shear, contact.slide, warm))
 
 
 def _dose(case: Case, side: Side, contact: MeanContact, mean: Mean, touching: float, oiled: float) -> Dose:

@@ -140,16 +140,34 @@ def doubts(scene: Any) -> Iterator[str]:
 def replaced(scene: Any, key: str, value: float) -> Any:
     """Return a scene, or a record of it, with another value [SI] of a dotted key, unchecked."""
     name, _, rest = key.partition(".")
-    return replace(scene, **{name: replaced(_part(scene, name), rest, value) if rest else value})
+    part = replaced(_part(scene, name), rest, value) if rest else value
+    if isinstance(scene, tuple):
+        return (*scene[: int(name)], part, *scene[int(name) + 1 :])
+    return replace(scene, **{name: part})
+
+
+def spread(record: Any, key: str) -> Iterator[str]:
+    """Yield a dotted key of a record; for one that leads through lists that of each item, with its number from 0."""
+    name, _, rest = key.partition(".")
+    if isinstance(record, tuple):
+        yield from (f"{k}.{each}" for k, item in enumerate(record) for each in spread(item, key))
+    elif rest:
+        yield from (f"{name}.{each}" for each in spread(_part(record, name), rest))
+    else:
+        yield key
 
 
 def _part(record: Any, name: str) -> Any:
+    if isinstance(record, tuple):
+        return record[int(name)]
+    if isinstance(record, Mapping):
+        return record.get(name)
     part = getattr(record, name, None)
     return AsperityLayer(0.0, _LONGEST) if part is None and name == "microroughness" else part
 
 
 def value_of(record: Any, key: str) -> tuple[float, str]:
-    """Return the value [SI] of a dotted key and its unit."""
+    """Return the value [SI] of a dotted key and its unit, of a record or of records by name."""
     if key.startswith(_GIVEN):
         raise SceneError(
             f'intervals."{key}": what the contact is run at is given, not assumed, so it has none. `tribofmu sweep` '
@@ -161,7 +179,7 @@ def value_of(record: Any, key: str) -> tuple[float, str]:
     field = next((f for f in fields(record) if f.name == last), None) if is_dataclass(record) else None
     value = getattr(record, last, None)
     if field is None or not isinstance(value, float):
-        raise SceneError(f'intervals."{key}" is no number of this scene. `tribofmu explain` lists them by their keys.')
+        raise SceneError(f'intervals."{key}" is no number that may vary. `tribofmu explain` lists them by their keys.')
     return value, field.metadata["unit"]
 
 

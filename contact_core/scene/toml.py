@@ -95,11 +95,11 @@ def given(source: str | Path, overrides: Mapping[str, str]) -> tuple[dict[str, A
         else:
             override(table, key, located({last: value}, *reversed(folders))[last])
     if isinstance(table.get("intervals"), Mapping):
-        table["intervals"] = _still_assumed(flat(table["intervals"]), changes)
+        table["intervals"] = still_assumed(flat(table["intervals"]), changes)
     return table, folders
 
 
-def _still_assumed(intervals: Mapping[str, Any], changes: Iterable[str]) -> dict[str, Any]:
+def still_assumed(intervals: Mapping[str, Any], changes: Iterable[str]) -> dict[str, Any]:
     """Return the intervals of values that no change of a dotted key, or of its set, has replaced.
 
     Another model keeps the values that it has in common with the one before.

@@ -50,14 +50,17 @@ def _scene(name: str, settings: dict[str, str]) -> "Explanation":
 
 
 def _contact(name: str, settings: dict[str, str]) -> "Explanation":
-    """Return the explanation of the contact of a machine."""
+    """Return the explanation of the contact of a machine, with what all of the machine assumes."""
     from ..explain.scene import explain
-    from ..machines.reading import read
+    from ..machines import assumed
+    from ..machines.reading import assemble, duty_of, read
+    from ..machines.registry import kinds
     from ..machines.tables import contact_of
 
     machine = read(name, settings)
     scene, changes = contact_of(machine.table)
     explanation = explain(scene, changes)
+    worth = assumed.worth(kinds()[machine.kind], assemble(machine), duty_of(machine))
     return replace(
         explanation,
         name=machine.name,
@@ -65,5 +68,7 @@ def _contact(name: str, settings: dict[str, str]) -> "Explanation":
         about=f"The contact of this machine is the scene {scene}, with what the machine's file sets. Loads, speeds, "
         "radii and temperatures of each contact are the machine's; those below are the scene's. "
         f"{explanation.about}",
+        trust=(*explanation.trust, *([assumed.where(worth)] if worth else [])),
+        assumed=tuple(assumed.table(worth)) if worth else (),
         commands=((f"tribofmu run {name}", "the machine, with its errors"),),
     )

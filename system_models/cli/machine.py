@@ -129,7 +129,7 @@ def _run_in(
         system = assembly.system(Path(files), flavour, here=True)
 
         def report(dataset: "xr.Dataset", folder: Path) -> int:
-            code = _report(dataset, folder, assembly, machine.kind)
+            code = _report(dataset, folder, assembly, machine)
             return code if unchecked else _check(dataset, folder, assembly, system, code, arguments.resume)
 
         if not arguments.resume:
@@ -139,21 +139,24 @@ def _run_in(
         )
 
 
-def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:
+def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", machine: "Machine") -> int:
     """Print and write the result; return the exit code."""
-    from ..machines import causes, trust
+    from ..machines import assumed, causes, trust
     from ..machines import report as machine_report
+    from ..machines.reading import duty_of
     from ..machines.registry import kinds
     from ..run import cosim_report
     from ..store import results
     from .simulation import EXIT_CODE
 
-    described = kinds()[kind]
-    dataset = results.with_half_widths(dataset)
+    described = kinds()[machine.kind]
+    worth = assumed.worth(described, assembly, duty_of(machine))
+    dataset = assumed.with_half_widths(results.with_half_widths(dataset), worth)
     print(*described.lines(assembly, dataset), "", *trust.after(described, assembly, dataset), "", sep="\n")
+    print(*assumed.lines(assembly, dataset, worth), "", sep="\n")
     print(*machine_report.lines(assembly, dataset), "", *cosim_report.closing_lines(dataset), "", sep="\n")
     code = 1 if cosim_report.unreliable_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0
-    dataset = dataset.assign_attrs(causes.attribute(assembly, dataset, folder))
+    dataset = dataset.assign_attrs(causes.attribute(assembly, dataset, folder) | assumed.attribute(worth))
     written = results.write(dataset.assign_attrs({EXIT_CODE: code}), folder)
     print(f"Written: {', '.join(map(str, [*written, *described.pictures(assembly, dataset, folder)]))}", flush=True)
     return code

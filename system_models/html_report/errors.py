@@ -1,5 +1,6 @@
 """Errors by cause at the end of a run: of one contact, of each one of a machine, and by the coupling of its parts."""
 
+import json
 from collections.abc import Iterator
 
 import numpy as np
@@ -8,6 +9,7 @@ from contact_core.assumed import HEADS, assumed, told
 from contact_core.errors import ContactError
 from contact_core.state import Error
 
+from ..machines.assumed import ATTRIBUTE as WORTH
 from ..machines.coupling_error import ATTRIBUTE as COUPLING
 from ..run.half_widths import SHARES
 from .markup import Raw, folded, heading, paragraph, section, table, text
@@ -44,7 +46,7 @@ def sections(run: Run) -> str:
     )
     if run.of_contact:
         return section("errors", "Errors by cause", words, *_by_cause(run, ""), *_assumed(run))
-    return section("errors", "Errors by cause", words, *_of_contacts(run), *_of_coupling(run))
+    return section("errors", "Errors by cause", words, *_of_contacts(run), *_of_coupling(run), *_of_machine(run))
 
 
 def _by_cause(run: Run, contact: str) -> Iterator[str]:
@@ -96,6 +98,16 @@ def _assumed(run: Run) -> Iterator[str]:
         "regression level."
     )
     yield table(list(HEADS), [list(row) for row in rows], "numbers")
+
+
+def _of_machine(run: Run) -> Iterator[str]:
+    """Yield a table of what a machine assumes and what that is worth in one state of its duty."""
+    found = json.loads(run.dataset.attrs.get(WORTH, "{}"))
+    if found:
+        head, *rows = found["rows"]
+        yield heading("Beside them: what the machine assumes")
+        yield paragraph(f"Each value may lie anywhere between the two that are given. {found['where']}")
+        yield table(head, rows, "numbers")
 
 
 _MEANING = {

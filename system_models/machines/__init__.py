@@ -10,6 +10,7 @@ Each kind is a folder with its wiring, own parts, report and shipped files; `reg
     plausibility    numbers that look like mistakes
     report          costs, levels, invalid rows, stored heat
     trust           what to trust of a run: lines before it on the most loaded contacts, and after it
+    assumed         what the assumptions of a machine are worth: half widths of its results
     causes          errors of contacts at the end of a run, by their causes
     resolve         contact states of a finished run, solved again deterministically
     corrected       friction, film and W_c of a run corrected by these states

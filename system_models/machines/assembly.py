@@ -10,6 +10,7 @@ from typing import Any
 from contact_core.errors import SceneError
 from contact_core.quantities import LEVELS, TABLE
 from contact_core.scene import OperatingPoint, Scene, with_values
+from contact_core.scene.intervals import Interval, replaced, spread
 from fmu_src.flavours import Flavour
 from fmu_src.native.program import own_radii
 from fmu_src.package.build import build as build_contact
@@ -29,7 +30,7 @@ _NOT_RECORDED = {
     "h_central", "h_min", "lambda_conventional", "temperature_1", "temperature_2",
     "contact_area_ratio", "contact_area_ratio_disc", "contact_load_ratio_disc",
     "tribofilm_roughness_1", "tribofilm_roughness_2", "tribofilm_covered_1", "tribofilm_covered_2",
-    "tribofilm_upper_1", "tribofilm_upper_2", "coverage_1", "coverage_2", "error_tribofilm_1", "error_tribofilm_2",
+    "tribofilm_upper_1", "tribofilm_upper_2", "coverage_1", "coverage_2",
     "roughness_ra_1", "roughness_ra_2", "roughness_raw_1", "roughness_raw_2",
     "iterations", "suggested_step", "unconverged", "blocks_dry", "blocks_mixed", "blocks_fallback",
 }  # fmt: skip
@@ -71,6 +72,28 @@ class Assembly:
     schedule: Schedule
     settings: Mapping[str, Any]
     reported: Mapping[str, Any] = field(default_factory=dict)  # what only the report reads, by table of the file
+    intervals: tuple[Interval, ...] = ()  # of what is assumed, by "part.key" and "contact.key"
+
+    def ends(self, interval: Interval) -> list[tuple[dict[str, float], dict[str, float]]]:
+        """Return least and largest values in SI by key, of each number of an interval. Raises SceneError for none."""
+        records = {"contact": next(iter(self.contacts.values())).scene, **self.parts}
+        if len(interval.keys) > 1:  # they go together
+            return [interval.ends(records)]
+        return [replace(interval, key=key).ends(records) for key in spread(records, interval.key)]
+
+    def with_values(self, values: Mapping[str, float]) -> "Assembly":
+        """Return the machine with other values [SI] by dotted keys of parts, or of all contacts' scenes."""
+        changed = self
+        for key, value in values.items():
+            changed = changed._with_value(key, value)
+        return changed
+
+    def _with_value(self, key: str, value: float) -> "Assembly":
+        part, _, rest = key.partition(".")
+        if part != "contact":
+            return replace(self, parts={**self.parts, part: replaced(self.parts[part], rest, value)})
+        own = {name: replaced(contact.scene, rest, value) for name, contact in self.contacts.items()}
+        return replace(self, contacts={name: replace(self.contacts[name], scene=scene) for name, scene in own.items()})
 
     def outputs(self) -> list[str]:
         """Return the recorded variables: all outputs of parts, those of contacts in `RECORDED`, changing inputs."""

@@ -39,3 +39,6 @@ class Kind:
     legend: Mapping[str, str]  # headings of the printed tables, and what they mean
     lines: Callable[[Assembly, xr.Dataset], list[str]]  # the printed report of a run
     pictures: Callable[[Assembly, xr.Dataset, Path], list[Path]]  # written into a folder; overview.png first
+    turning: Callable[[Mapping[str, Part], Mapping[str, float]], dict[str, float]] = lambda parts, signals: {}
+    # inputs "part.variable" that the moving parts give then to the part between contacts and heat
+    main: tuple[str, ...] = ()  # outputs "part.variable" that matter most; without, nothing is said of what is assumed

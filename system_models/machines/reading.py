@@ -8,6 +8,7 @@
     film.model = "regression"
 
     [drive]                      # the machine's components, by their names: see help of the kind's module
+    [intervals]                  # of what is assumed: see `assumed`
     [duty]                       # signals against time: see `timeline`
     [simulate]                   # the arguments of `master.simulate`
 
@@ -23,14 +24,15 @@ from typing import Any, NamedTuple
 
 from contact_core.errors import SceneError
 from contact_core.quantities import LEVELS
-from contact_core.scene.toml import NO_UTF_8, did_you_mean
+from contact_core.scene.intervals import Interval, applicable, listed
+from contact_core.scene.toml import NO_UTF_8, did_you_mean, still_assumed
 
 from ..master.reading import settings, value
 from ..run import duty_table
 from . import timeline
 from .assembly import Assembly, Contact
 from .files import shipped, shipped_files
-from .kind import Kind
+from .kind import Design, Kind
 from .registry import kinds
 
 _VALUES = ("description", "deterministic")  # keys that are no tables
@@ -69,6 +71,8 @@ def read(source: str, changes: Mapping[str, str] | None = None, duty: Path | Non
         table["duty"] = timeline.with_file(own if isinstance(own, Mapping) else {}, duty.absolute())
     for key, text in (changes or {}).items():
         _put(table, key, value(text))
+    if isinstance(table.get("intervals"), Mapping):
+        table["intervals"] = still_assumed(table["intervals"], changes or ())
     table.setdefault("description", path.stem)
     if changes:
         table["description"] = f"{table['description']} (changed)"
@@ -113,7 +117,7 @@ def assemble(machine: Machine) -> Assembly:
     _check_keys(machine, kind)
     duty = duty_of(machine)
     design = kind.design(table, duty)
-    return Assembly(
+    assembly = Assembly(
         name=machine.name,
         description=str(table["description"]),
         parts=design.parts,
@@ -123,7 +127,19 @@ def assemble(machine: Machine) -> Assembly:
         schedule=design.schedule,
         settings=_simulation(table, duty.end),
         reported=design.reported,
+        intervals=_intervals(table.get("intervals", {}), design),
     )
+    for interval in assembly.intervals:
+        assembly.ends(interval)
+    return assembly
+
+
+def _intervals(table: Mapping[str, Any], design: Design) -> tuple[Interval, ...]:
+    """Return what the machine and the scene of its contacts assume. Raises SceneError for what cannot be."""
+    own = {each["key"]: Interval(**each) for each in listed(table)}
+    theirs = applicable(next(iter(design.contacts.values())).scene)
+    of_contacts = [replace(each, key=", ".join(f"contact.{key}" for key in each.keys)) for each in theirs]
+    return tuple(({each.key: each for each in of_contacts} | own).values())
 
 
 def duty_of(machine: Machine) -> timeline.Timeline:
@@ -161,7 +177,7 @@ def _simulation(table: Mapping[str, Any], duration: float) -> dict[str, Any]:
 
 def _check_keys(machine: Machine, kind: Kind) -> None:
     """Raise SceneError for a table or key that the kind does not know, or a value in place of a table."""
-    known = ["description", *kind.tables, "contact", "deterministic", "duty", "simulate"]
+    known = ["description", *kind.tables, "contact", "deterministic", "duty", "intervals", "simulate"]
     for key, item in machine.table.items():
         if key not in known:
             raise SceneError(f"A {kind.name} has no '{key}'.{did_you_mean(key, known)} Known are {', '.join(known)}.")

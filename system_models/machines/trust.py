@@ -14,7 +14,7 @@ from contact_core.scene import Case, OperatingPoint
 from contact_core.state import RangeFlag
 
 from ..parts.part import start_values
-from ..run import flags, verdict
+from ..run import flags, grown, verdict
 from ..run.trust import described, regime, span, wrapped
 from .assembly import Assembly
 from .kind import Kind
@@ -104,7 +104,18 @@ def told(kind: Kind, assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     """Return what the columns of the tables are, the flags raised with their quantities, and a verdict."""
     columns = "; ".join(f"{heading}: {meaning}" for heading, meaning in kind.legend.items())
     contacts = {name: of_contact(assembly, dataset, name) for name in assembly.contacts}
-    return [f"Columns: {columns}.", *sentences(assembly, contacts), *_verdict(assembly, contacts)]
+    told = *sentences(assembly, contacts), *_grown(assembly, contacts), *_verdict(assembly, contacts)
+    return [f"Columns: {columns}.", *told]
+
+
+def _grown(assembly: Assembly, contacts: Mapping[str, xr.Dataset]) -> Iterator[str]:
+    """Yield a sentence on tribofilms that oil has grown, of the contact in which they are thickest."""
+    films = {name: grown.by_oil(assembly.contacts[name].own_scene, rows) for name, rows in contacts.items()}
+    oiled = [name for name, text in films.items() if text]
+    if oiled:
+        thickest = max(oiled, key=lambda name: max(float(contacts[name][f"tribofilm_{i}"][-1]) for i in (1, 2)))
+        others = f" ({len(oiled)} of {len(contacts)} contacts have such films.)" if len(contacts) > 1 else ""
+        yield f"{thickest}: {films[thickest]}{others}"
 
 
 def sentences(assembly: Assembly, contacts: Mapping[str, xr.Dataset]) -> Iterator[str]:

@@ -10,6 +10,7 @@
     half_widths                   values with the half widths of their errors as text
     trust, flags, verdict         what to trust of a run: lines before and after it; range flags in numbers; how well
                                   its outputs are known
+    grown                         why there are tribofilms where solids do not touch
     report                        the printed table and the overview picture of a contact's run
     stribeck, stribeck_report     Stribeck curves at given times of rubbing; their table and picture
     fit, fit_data, fit_model      constants of a scene from measured numbers: the fit, the numbers, the model

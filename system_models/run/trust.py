@@ -16,7 +16,7 @@ from contact_core.scene import Case, OperatingPoint, Scene
 from contact_core.scene.hertz_grid import POINTS
 from contact_core.state import Error
 
-from . import assumed, flags, verdict
+from . import assumed, flags, grown, verdict
 from .duty import Duty
 
 _MOST_POINTS = 200  # of a duty that are looked at
@@ -182,8 +182,14 @@ def after(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> lis
     `errors` are those of the last state by `contact_core.uncertainty`; empty if that is not known.
     """
     known = verdict.sentence(scene, dataset, errors)
-    worth = assumed.sentence(scene, dataset)
-    return wrapped(*flags.sentences(scene, dataset), known, *worth, *assumed.not_in_errors(dataset.attrs))
+    worth, film = assumed.sentence(scene, dataset), grown.by_oil(scene, dataset)
+    return wrapped(
+        *flags.sentences(scene, dataset),
+        *([film] if film else []),
+        known,
+        *worth,
+        *assumed.not_in_errors(dataset.attrs),
+    )
 
 
 def width() -> int:

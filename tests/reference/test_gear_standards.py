@@ -11,7 +11,7 @@ from comparison import approx
 from contact_core import Scene
 from contact_core.reference import hertz_line
 from system_models.machines.gear_pair import micropitting, scuffing
-from system_models.machines.gear_pair.geometry import FZG_A, FZG_C, FZG_STAGES
+from system_models.machines.gear_pair.geometry import FZG_A, FZG_C, FZG_STAGES, load_stages
 from system_models.machines.gear_pair.rating import Rating
 from system_models.machines.gear_pair.safety import Safeties
 from system_models.machines.gear_pair.sharing import Sharing
@@ -125,7 +125,9 @@ def test_classes_of_load_stages():
     by_stage = {stage: micropitting.gf_class(stage) for stage in (5, 7, 8, 9, 10)}
     assert by_stage == {5: "low", 7: "low", 8: "medium", 9: "medium", 10: "high"}
     assert micropitting.gf_class(None) == "high"
-    assert [micropitting.load_stage(torque) for torque in (28.79, 265.4, 135.3)] == [3, 10, None]
+    assert load_stages((28.79, 265.4)) == [3, 10]
+    assert load_stages((3.3, 135.3)) == [1, 6]
+    assert load_stages((28.79, 135.3)) is load_stages((135.3,), (0.35,)) is None
 
 
 # scuffing

@@ -12,6 +12,8 @@ from contact_core import ContactState, Scene, advance, initial_state, solve
 from contact_core.deterministic.accumulator import Accumulator
 from contact_core.laws.tribofilm import Andersson, Combined, Ghanbarzadeh, Gosvami, NoTribofilm, ZhangSpikes
 from contact_core.laws.tribofilm.activated import edge_tension
+from contact_core.regression.contact import MeanContact
+from contact_core.regression.exposure import _oiled
 from contact_core.scene import Case
 from contact_core.surfaces.patches import across_track, on_patch, patch_nodes
 
@@ -259,3 +261,16 @@ def test_a_run_with_removal_is_cut_and_continued_to_the_same_bits():
     state, _ = advance(scene, op, state, 40.0)
     restored = ContactState.from_bytes(state.to_bytes(), scene)
     assert advance(scene, op, restored, 40.0)[0].to_bytes() == advance(scene, op, state, 40.0)[0].to_bytes()
+
+
+@pytest.mark.parametrize(("volume", "more"), [(0.13e-27, 1.1), (1e-31, 0.98)])
+def test_the_regression_level_takes_the_oils_stress_by_the_pressure_not_by_its_mean(volume, more):
+    scene = Scene.from_toml("ball_209_inner", {"film.model": "regression", "tribofilm.set": "zhang_spikes_80c_octyl"})
+    law = replace(scene.tribofilm, activation_volume=volume)
+    case = Case.bind(replace(scene, tribofilm=law), scene.operation.point)
+    contact = MeanContact(**{name: 0.0 for name in MeanContact._fields} | {"fluid_shear": 60e6, "slide": 0.05})
+    radius = np.linspace(0.0, 1.0, 20001)
+    shear = 1.5 * 60e6 * np.sqrt(1.0 - radius**2)
+    mean = np.trapezoid(2.0 * radius * law.exposure(0.0 * shear, shear, 0.05, WARM), radius)
+    assert _oiled(case, contact, WARM) == approx(mean, rel=0.01)
+    assert mean > more * float(law.exposure(0.0, 60e6, 0.05, WARM))

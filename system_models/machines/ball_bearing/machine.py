@@ -100,14 +100,19 @@ def foreseen(parts: Mapping[str, Part], signals: Mapping[str, float]) -> dict[st
     """Return load, speeds, spin and radius of the contacts of all load classes under signals of the duty."""
     bearing = parts["bearing"]
     assert isinstance(bearing, BallBearing)
-    turning = {target.partition(".")[2]: signals.get(name, 0.0) for name, target in _BY_SIGNAL.items()}
-    inputs = start_values(bearing) | turning
+    given = {target.partition(".")[2]: value for target, value in turning(parts, signals).items()}
+    inputs = start_values(bearing) | given
     found = bearing.outputs(bearing.initial(inputs), inputs)
     return {
         contact_name(race, k): {key: found[indexed(f"{key}_{race}", k)] for key in SENT}
         for race in RACES
         for k in range(1, bearing.levels + 1)
     }
+
+
+def turning(parts: Mapping[str, Part], signals: Mapping[str, float]) -> dict[str, float]:
+    """Return loads and speed of the bearing under signals of the duty."""
+    return {target: signals.get(name, 0.0) for name, target in _BY_SIGNAL.items()}
 
 
 def _contact(table: Mapping[str, Any], design: LoadClass, moved: tuple[str, ...]) -> Contact:
@@ -140,6 +145,8 @@ BALL_BEARING = Kind(
     needed=("speed",),
     design=design,
     foreseen=foreseen,
+    turning=turning,
+    main=("bearing.friction_torque", "bearing.power_loss"),
     legend=report.LEGEND,
     lines=report.lines,
     pictures=report.write,

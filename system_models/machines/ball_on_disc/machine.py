@@ -94,6 +94,7 @@ BALL_ON_DISC = Kind(
     needed=("entrainment_speed", "slide_roll_ratio", "load"),
     design=design,
     foreseen=foreseen,
+    main=("contact.friction_coefficient", "contact.power_loss"),
     legend=report.LEGEND,
     lines=report.lines,
     pictures=report.write,

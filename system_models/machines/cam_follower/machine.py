@@ -79,6 +79,11 @@ def foreseen(parts: Mapping[str, Part], signals: Mapping[str, float]) -> dict[st
     return {name: {key: found[indexed(key, k)] for key in SENT} for k, name in names.items()}
 
 
+def turning(parts: Mapping[str, Part], signals: Mapping[str, float]) -> dict[str, float]:
+    """Return the speed of the cam under signals of the duty."""
+    return {"cam.speed": signals["speed"]}
+
+
 def _contact(table: Mapping[str, Any], cam: CamFollower, station: Station) -> Contact:
     """Return the contact at a station."""
     scene = scene_of(table)
@@ -104,6 +109,8 @@ CAM_FOLLOWER = Kind(
     needed=("speed",),
     design=design,
     foreseen=foreseen,
+    turning=turning,
+    main=("cam.friction_torque", "cam.power_loss"),
     legend=report.LEGEND,
     lines=report.lines,
     pictures=report.write,

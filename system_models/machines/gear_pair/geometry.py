@@ -1,7 +1,7 @@
 """A pair of involute spur gears: its drawing, and the geometry of its mesh."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -164,3 +164,14 @@ FZG_STAGES: dict[float, tuple[float, ...]] = {
     0.5: (3.3, 13.7, 35.25, 60.75, 94.1, 135.3, 183.35, 239.25, 302.0, 372.7, 450.1, 534.5, 626.93, 714.2),
     0.35: (3.3, 13.7, 28.79, 46.64, 69.98, 98.82, 132.46, 171.59, 215.51, 265.0, 319.18, 378.26, 438.85, 499.94),
 }
+_SAME = 0.01  # relative difference of torques up to which they are of a load stage
+
+
+def load_stages(torques: Sequence[float], levers: Sequence[float] = tuple(FZG_STAGES)) -> list[int] | None:
+    """Return the numbers of FZG's load stages with torques of the pinion [N m]; None if no lever [m] has them all."""
+    for lever in levers:
+        its = FZG_STAGES[lever]
+        found = [next((n for n, own in enumerate(its, 1) if abs(torque - own) < _SAME * own), 0) for torque in torques]
+        if all(found):
+            return found
+    return None

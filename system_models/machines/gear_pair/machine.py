@@ -92,10 +92,17 @@ def foreseen(parts: Mapping[str, Part], signals: Mapping[str, float]) -> dict[st
     """Return load and speeds of the contacts under signals of the duty."""
     mesh = parts["mesh"]
     assert isinstance(mesh, GearMesh)
-    speed = signals["speed"]
-    turning = {"torque": signals["torque"], "speed_1": speed, "speed_2": speed / mesh.pair.ratio}
-    found = mesh.outputs((), start_values(mesh) | turning)
+    given = {target.partition(".")[2]: value for target, value in turning(parts, signals).items()}
+    found = mesh.outputs((), start_values(mesh) | given)
     return {flank(k): {key: found[indexed(key, k)] for key in SENT} for k in range(1, mesh.stations + 1)}
+
+
+def turning(parts: Mapping[str, Part], signals: Mapping[str, float]) -> dict[str, float]:
+    """Return torque and speeds of the mesh under signals of the duty."""
+    mesh = parts["mesh"]
+    assert isinstance(mesh, GearMesh)
+    speed = signals["speed"]
+    return {"mesh.torque": signals["torque"], "mesh.speed_1": speed, "mesh.speed_2": speed / mesh.pair.ratio}
 
 
 _SETS = {
@@ -155,6 +162,8 @@ GEAR_PAIR = Kind(
     needed=("speed", "torque"),
     design=design,
     foreseen=foreseen,
+    turning=turning,
+    main=("mesh.friction_coefficient", "mesh.power_loss"),
     legend=report.LEGEND,
     lines=report.lines,
     pictures=report.write,

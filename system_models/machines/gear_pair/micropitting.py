@@ -26,7 +26,8 @@ _SMALL = 1e6  # Pa, over which the pressure coefficient is taken
 MARGIN = 1.4  # between the film that the test gears fail with and that which gears may have
 
 # The test of FVA 54/7 (GF-C/8.3/90): FZG type C, lever of 0.35 m, oil jet at 90 degC. Ra: of its drawing, from memory
-TEST_STAGES = FZG_STAGES[0.35]
+TEST_LEVER = 0.35  # m
+TEST_STAGES = FZG_STAGES[TEST_LEVER]
 TEST_SPEED = 2250.0 * math.pi / 30.0
 TEST_OIL = 363.15
 TEST_RA = 0.5e-6
@@ -109,14 +110,6 @@ def limit(working: Working, before: int = 0) -> float:
 def safety(ratio: float, failing: float, material_factor: float) -> float:
     """Return S_lambda of a least ratio: over lambda_GFP, 1.4 W_W times the ratio with which the oil fails the test."""
     return ratio / (MARGIN * material_factor * failing)
-
-
-def load_stage(torque: float) -> int | None:
-    """Return the load stage of the test with a torque of the pinion [N m], within 1 %."""
-    for stage, its in enumerate(TEST_STAGES, 1):
-        if abs(torque - its) < 0.01 * its:
-            return stage
-    return None
 
 
 def gf_class(failed: int | None) -> str:

@@ -16,7 +16,7 @@ from contact_core.reference import hertz_line
 from contact_core.scene import Scene
 
 from ..assembly import Assembly
-from .geometry import SpurGearPair
+from .geometry import FZG_A, FZG_C, SpurGearPair, load_stages
 from .mesh import GearMesh, flank
 from .path import Array, steps
 from .textbook import iso_14179_1, load_intensity, ohlendorf, schlenk
@@ -28,7 +28,7 @@ _TURNS, _LOADED = 1.0, 1e-3  # rad/s and N m: less is standing still or idling
 class Stage(NamedTuple):
     """A stretch of the duty with one speed and torque, both above zero."""
 
-    number: int
+    number: int  # of the load stage if the duty is one of FZG's, else counted from 1
     start: float  # [s]
     end: float
     torque: float  # of the pinion, as the duty has it [N m]
@@ -166,7 +166,8 @@ class Record:
             first, last = (int(np.searchsorted(self.time, t * (1.0 + 1e-12), "right")) for t in (start, stop))
             if speed > 0.0 and torque > 0.0 and last > first and self.works[last - 1]:
                 found.append(Stage(len(found) + 1, start, stop, torque, speed, slice(first, last)))
-        return found
+        tested = load_stages([stage.torque for stage in found]) if self.pair in (FZG_A, FZG_C) else None
+        return [stage._replace(number=n) for stage, n in zip(found, tested, strict=True)] if tested else found
 
     def shown(self, most: int) -> list[Stage]:
         """Return at most so many stages, spread evenly, with the first and the last."""

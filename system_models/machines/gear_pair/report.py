@@ -28,6 +28,7 @@ _SAFETY_HEADS = (
     ("S_B", "run"),
 )  # fmt: skip
 LEGEND = {
+    "stage": "of FZG's load stages where the duty has their torques, else counted from 1",
     "n1, T1": "speed and torque of the pinion",
     "p_H at C": "Hertz pressure at the pitch point, one pair carrying all",
     "lambda": "least and largest h_c / present roughness along the path",

@@ -11,9 +11,9 @@ from contact_core.scene import Scene
 
 from ..resolve import started
 from .flanks import contact_at
-from .geometry import FZG_C
+from .geometry import FZG_C, load_stages
 from .mesh import GearMesh
-from .micropitting import Films, films, gf_class, limit, load_stage, reference_test, safety
+from .micropitting import TEST_LEVER, Films, films, gf_class, limit, reference_test, safety
 from .path import Array, surface_speeds
 from .rating import Rating
 from .record import RA_OF_RQ, Record
@@ -130,8 +130,8 @@ class Safeties:
         The oil passes its own test up to a load stage and fails the next one: what it needs lies between the ratios of
         these two. A run fails at the first load stage at whose end it is below their geometric mean.
         """
-        numbers = [load_stage(stage.torque) for stage in self.record.stages]
-        if self.record.pair != FZG_C or None in numbers:
+        numbers = load_stages([stage.torque for stage in self.record.stages], (TEST_LEVER,))
+        if self.record.pair != FZG_C or numbers is None:
             return None
         found = [self.micropitting(stage.last) for stage in self.record.stages]
         standard = [its.standard for its in found], self.failing * limit(self._any, 1)
