@@ -15,5 +15,5 @@ def warm_up(case: Case, state: ContactState) -> None:
     """Solve a dry instant, the film with which a march begins, and a mixed instant after it."""
     solve_instant(case, state, dry=True)
     state = replace(state, film=first_film(case, state))
-    dt = case.scene.film.spacing / abs(case.op.entrainment_speed)
-    next_instant(case, state, [speed * dt for speed in case.speeds], Transient(dt, 1, _ITERATIONS))
+    node = case.scene.film.spacing  # both bodies move on by it, as the oil does
+    next_instant(case, state, [node, node], Transient(node / abs(case.op.entrainment_speed), 1, _ITERATIONS))

@@ -86,7 +86,8 @@ class Hertz:
         along, across = (x[None, :] / self.a) ** 2, (y[:, None] / self.a) ** 2
         b_2 = (self.b / self.a) ** 2
         half = 0.5 * (along + across - 1.0 - b_2)
-        end = np.arcsinh(np.sqrt(np.maximum(half + np.sqrt(half**2 + along * b_2 + across - b_2), 0.0)))
+        apart = np.sqrt(np.maximum(half**2 + along * b_2 + across - b_2, 0.0))
+        end = np.arcsinh(np.sqrt(np.maximum(half + apart, 0.0)))
         total = np.zeros_like(end)
         for node, weight in zip(_FINE, _FINE_WEIGHTS, strict=True):
             sinh_2 = np.sinh(0.5 * (1.0 + node) * end) ** 2

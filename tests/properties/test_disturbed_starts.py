@@ -232,7 +232,7 @@ def test_a_march_gives_the_same_verdict_and_values(name, thorough, noise):
         off, state, heights = noise(seed), first, now.heights
         for _ in range(3):
             heights = np.roll(heights, 1, axis=1)
-            step = Step(grid.spacing / now.entrainment_speed, 1, thorough=thorough)
+            step = Step(grid.spacing / now.entrainment_speed, 1, thorough=thorough, rolled=1)
             state = replace(state, mass=off(state.mass))
             found = solve_film(replace(now, heights=off(heights)), grid, replace(SETTINGS, iterations=150), state, step)
             state = found.state

@@ -94,7 +94,7 @@ COARSE = {
 TIRED = COARSE | {  # a softer steel than any, so that it breaks out in so short a run
     "stress.model": "half_space",
     "fatigue.model": "basquin",
-    "fatigue.reference_stress": "400 MPa",
+    "fatigue.reference_stress": "300 MPa",
     "stress.near_surface": "0.5",
     "fatigue.reference_cycles": "2000",
     "fatigue.life_exponent": "9",
