@@ -97,6 +97,7 @@ PAGES: dict[str, Source] = {
     "film/error_estimate": Source("film.error_estimate", ("film", "calls", "estimate")),
     "film/flux": Source("film.flux", ("film", "evolution", "control", *CIRCLES)),
     "film/moving": Source("film.moving", ("film", "evolution", "control", *CIRCLES)),
+    "film/time_step": Source("film.time_step", ("film", "evolution", "control", *CIRCLES)),
     "film/two_hours": Source("film.two_hours", ("film", "evolution", "control", *CIRCLES)),
     "film/steady": Source("film.steady", ("film",)),
     "film/tolerance": Source("film.tolerance", ("film", "evolution", "control", "data", "mtm_zddp")),
