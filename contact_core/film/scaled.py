@@ -220,9 +220,16 @@ class Scaled:
             wrapped=self.grid.periodic,
             fitted=self.settings.fitted,
             slow_mass=None if self.slow is None else images(self.slow.now / self.h_unit),
+            empty=None if self.slow is None or self.start is None else images(self._empty(self.start)),
             stress=self.stress,
             depth=self.fade,
         )
+
+    def _empty(self, start: FilmState) -> NDArray[np.bool_]:
+        """Return the nodes whose oil had no pressure before; a flooded edge is full."""
+        empty = start.fluid <= 0.0
+        empty[:, 0] = self.now.supply is not None
+        return empty
 
     def _with_images(self, field: NDArray[Any]) -> NDArray[Any]:
         """Return a field [ny, nx]; on a periodic grid with images of the last row before and the first after."""

@@ -144,3 +144,14 @@ def test_instants_of_rough_bodies_close_where_asperities_below_the_grid_carry_mo
         share.append(float(fields.solid_pressure.sum() / fields.pressure.sum()))
     assert max(iterations[4:]) < 30  # 37 to 51 if they are not
     assert min(share) > 0.7
+
+
+@pytest.mark.parametrize("supply", ["14 nm", "30 nm"])
+def test_a_starved_film_keeps_its_oil_in_a_march(supply):
+    smooth = {"surface_1.rq": "0 m", "surface_2.rq": "0 m", "lubricant.cavitation": "mass_conserving"}
+    case = bound(smooth | {"lubricant.supply.model": "film", "lubricant.supply.thickness": supply})
+    state, steady = begin(case, initial_state(case.scene))
+    _, fields = marched(case, state, 80)
+    middle = steady.gap.shape[0] // 2
+    assert fields.converged
+    assert fields.gap[middle, middle] == approx(steady.gap[middle, middle], rel=0.1)

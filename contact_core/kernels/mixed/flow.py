@@ -19,7 +19,8 @@ for what moves along is exact with
     m_f = t m_M + (1 - t) m_u(M),   m_M = (mean of M / h^3) / I_3,
 
 for m - M needs no pressure: with m_c, which stands still, roughness that rolls would be pumped along by as much as the
-step moves it.
+step moves it. Oil without pressure is carried along as it is: of M, a face behind it passes the mean over the way of
+the nodes, M (x - C / 2) at C nodes per step. Else half a cell of a closing gap would be lost where oil fills up.
 
 The gap within a cell along the flow is the cubic through four nodes; across the flow it is straight, 1 / I_3 =
 2 h_1^2 h_2^2 / (h_1 + h_2). Source of fitted fluxes: Scharfetter & Gummel, IEEE Trans. Electron Devices 16 (1969) 64,
@@ -37,6 +38,7 @@ from ..compiled import jit
 from .problem import Problem
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 # four Gauss points on a cell of unit length, and the cubic through the nodes -1, 0, 1, 2 there
 _POINTS, _WEIGHTS = (0.5 + 0.5 * x for x in np.polynomial.legendre.leggauss(4))
@@ -243,6 +245,7 @@ class Flow:
         self._scales, self.fitted = (floor, step, per_stiff), fitted
         self.slow_mass: Array | None = None
         self.slow: Array | None = None
+        self.empty: Mask | None = None
         scratch: list[Array] = [np.zeros(shape) for _ in range(11)]
         self.gap, self.rho, self.fluid, self.potential = scratch[:4]
         self.conductance, self.width, self.across = scratch[4:7]
@@ -256,6 +259,9 @@ class Flow:
         if problem.slow_mass is not None:
             flow.slow_mass, flow.slow = problem.slow_mass, np.zeros(problem.cap.shape)
             slow_upstream(flow.slow_mass, flow.slow)
+            if problem.empty is not None:
+                flow.empty, part = problem.empty, min(problem.nodes_per_step, 1.0)
+                flow.slow[flow.empty] += part * (flow.slow_mass - flow.slow)[flow.empty]
         return flow
 
     @property
@@ -285,3 +291,5 @@ class Flow:
         nodes = (self.gap, full, self.rho, self.fluid, self.potential, mobility, thinned)
         means = (self.conductance, self.width, self.across)
         face_flows(f, *nodes, *self._scales, self.fitted, *means, *self.faces, self.share, self.carried, self.slow)
+        if self.slow is not None and self.empty is not None:
+            np.copyto(self.carried, self.slow, where=self.empty)

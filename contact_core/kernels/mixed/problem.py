@@ -69,6 +69,7 @@ class Problem:
     stress: float = 0.0  # pressure that asperities below the grid carry at the floor
     depth: float = 0.0  # gap over which that falls by the factor e; 0: no such asperities
     slow_mass: Array | None = None  # part M of the mass that stands still; the rest, and the nodes, move with the oil
+    empty: Mask | None = None  # nodes whose oil had no pressure at the previous instant
     fitted: bool = False  # flow through faces exact for a constant flow in each cell; else second order upstream
 
     @cached_property
@@ -85,6 +86,11 @@ class Problem:
     def terms(self) -> Terms:
         """Arguments of kernels: time step, entrainment, spacing."""
         return Terms(self.per_dt, self.wedge, self.spacing)
+
+    @property
+    def nodes_per_step(self) -> float:
+        """Nodes that the oil is carried along in a time step."""
+        return self.wedge / (self.per_dt * self.spacing)
 
     @property
     def layer(self) -> tuple[float, float, float]:
