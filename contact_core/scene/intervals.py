@@ -108,8 +108,11 @@ def errors(scene: Any) -> Iterator[str]:
     """Yield sentences on intervals that cannot be."""
     for interval in applicable(scene):
         try:
-            for end in interval.ends(scene):
-                yield from (f"{interval.name}: {said}" for key in end for said in _out_of_range(scene, key, end[key]))
+            for end, text in zip(interval.ends(scene), (interval.least, interval.most), strict=True):
+                if "%" not in text:  # what is relative moves with the value
+                    yield from (
+                        f"{interval.name}: {said}" for key in end for said in _out_of_range(scene, key, end[key])
+                    )
         except SceneError as error:
             yield str(error)
 

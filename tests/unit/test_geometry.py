@@ -207,7 +207,7 @@ def doubled(scene: Scene) -> Scene:
 def test_a_face_twice_as_wide_under_twice_the_load_is_two_of_them(line):
     found, double = rubbed(line)[1], rubbed(doubled(line))[1]
     for name in IN_NEWTONS:
-        assert double[name] == approx(2.0 * found[name], rel=1e-8), name
+        assert double[name] == approx(2.0 * found[name], rel=1e-7), name
     for name in THE_SAME:
         assert double[name] == approx(found[name], rel=1e-9), name
     assert found["friction_force"] != 0.0
