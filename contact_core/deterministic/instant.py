@@ -37,7 +37,7 @@ class Transient:
 class ContactFields(Convergence):
     """Everything about one instant. Arrays [ny, nx] on the grid of the contact, x along entrainment, SI."""
 
-    x: Array  # [nx]
+    x: Array  # [nx]; nodes of a march move on with the oil, by half of their distance at most
     y: Array  # [ny]
     pressure: Array  # total
     fluid_pressure: Array

@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 Found = tuple[ContactState, ContactFields]
 
 _ITERATIONS = 200  # of an instant, at most
+_ON_NODE = 1e-9  # of a node
 _SMOOTH_STEP = 4.0  # nodes that smooth bodies move on by in an instant of a march, at most
 
 
@@ -77,6 +78,7 @@ def next_instant(case: Case, state: ContactState, steps: Sequence[float], transi
     way = case.op.entrainment_speed * transient.dt if transient.order == 1 and _is_carried(case) else 0.0
     oil = round((state.window + way) / spacing)  # nodes that it moves along; by the rest the nodes move with it
     window = state.window + way - oil * spacing
+    window = 0.0 if abs(window) < _ON_NODE * spacing else window  # rounding moves no node
     before = patch_nodes(case.scene, state.bodies[rougher], state.window)
     shifted, state = (window - state.window) / spacing, rolled(case.scene, replace(state, window=window), steps)
     moved = patch_nodes(case.scene, state.bodies[rougher], window) - before
