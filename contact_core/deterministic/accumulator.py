@@ -125,15 +125,11 @@ class Accumulator:
     def spread(self, alike: float) -> dict[str, float]:
         """Return the standard deviation of these means; `alike`: mean correlation of two instants.
 
-        Alike instants scatter less than their mean does. What the mean film has left of the roughness's own rolling
-        resistance scatters as if they were independent of each other.
+        Alike instants scatter less than their mean does. The roughness that is left in the mean film scatters alike.
         """
         n = self.count
-        found = {name: float(np.std([seen[name] for seen in self.outputs])) for name in self.outputs[0]}
         factor = ((1.0 + (n - 1) * alike) / (max(n - 1, 1) * (1.0 - alike))) ** 0.5
-        return {name: found[name] * factor for name in found} | {
-            "rolling_resistance": found["rolling_resistance"] / n**0.5
-        }
+        return {name: factor * float(np.std([seen[name] for seen in self.outputs])) for name in self.outputs[0]}
 
 
 def _exposures(case: Case, fields: ContactFields) -> tuple[Array, Array]:
