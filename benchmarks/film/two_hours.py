@@ -67,7 +67,7 @@ def main() -> None:
     for name, nodes, seconds, units, missed in costs:
         page.row(name, nodes, seconds, units, missed)
         page.verdict(f"{name}: at most 1 % of the instants miss on {nodes} nodes", f"{missed:.2f} %", missed <= 1.0)
-        most = {65: 10.0, 129: 40.0}[nodes]
+        most = {65: 8.0, 129: 30.0}[nodes]
         page.verdict(f"{name}: two hours on {nodes} nodes under {most:g} s", f"{seconds:.0f} s", seconds < most)
     page.write()
 
