@@ -26,7 +26,6 @@ OWED = {
         "film/moving",
         "film/peers",
         "film/tolerance",
-        "film/two_hours",
     ),
     *("fmu/endurance", "fmu/overhead", "friction/laws_cost", "friction/traction", "machines/tolerance"),
     *("regression/cost", "regression/curves", "regression/held_back", "regression/shapes", "speed_error"),

@@ -74,7 +74,7 @@ def test_the_first_block_of_an_operating_point_is_a_whole_pass(driver):
         assert len(places) == instants
         assert set(np.diff(places) % columns) <= {columns // instants, columns // instants + 1}
         rubbed = each.below.shear[:, :-1].sum() * scene.film.spacing**2 / instants
-        assert rubbed == approx(-each.outputs.friction_force, rel=0.01)  # on body 2
+        assert rubbed == approx(-each.outputs.friction_force, rel=0.02)  # on body 2; of all instants every fourth or so
     assert outputs.von_mises_max < found[0][1].von_mises_max
 
 
