@@ -194,7 +194,7 @@ def _solver(run: Run) -> str:
 def _of_blocks(dataset: xr.Dataset) -> Iterator[str]:
     """Yield what drove the blocks of the evolution, and how the instants of the maps were solved."""
     kinds = {
-        "dry": "dry contact at the measured share of load",
+        "dry": "dry contact",
         "mixed": "mixed lubrication",
         "fallback": "dry contact in place of a mixed solution that failed",
     }

@@ -161,7 +161,7 @@ def _blocks(last: xr.Dataset) -> list[str]:
     total = sum(blocks.values())
     share = {name: f"{100.0 * count / max(total, 1):.1f} %" for name, count in blocks.items()}
     return [
-        "Pressures that drive tribofilm and wear: dry contact at the measured share of load in "
+        "Pressures that drive tribofilm and wear: dry contact in "
         f"{share['dry']} of {total} blocks, mixed lubrication in {share['mixed']}, dry contact in place of a mixed "
         f"solution that failed in {share['fallback']}."
     ]

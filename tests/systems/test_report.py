@@ -118,7 +118,7 @@ def test_the_share_of_blocks_is_told(long_run: xr.Dataset) -> None:
         long_run[f"blocks_{name}"][-1] = count
     line = report.closing_lines(long_run)[1]
     assert line == (
-        "Pressures that drive tribofilm and wear: dry contact at the measured share of load in 60.0 % of 10 blocks, "
+        "Pressures that drive tribofilm and wear: dry contact in 60.0 % of 10 blocks, "
         "mixed lubrication in 30.0 %, dry contact in place of a mixed solution that failed in 10.0 %."
     )
 
