@@ -31,7 +31,7 @@ _AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which 
 _ITERATIONS = 300  # at most, of one transient step; a warm one needs about 16, after a jump up to 200
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
 _CLEAR = 3.0  # formula film over rms roughness, from which on a dry contact is no start
-# correlation of neighbours, and way of the oil over a of Hertz's contact in which it falls to zero
+# correlation of instants a short way apart, and way of the oil over a of Hertz's contact in which it falls to zero
 _ALIKE_AT_ONCE, _ALIKE = 0.9, 0.75
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
 _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the sampled film
@@ -157,7 +157,7 @@ def mixed_instants(scene: Scene) -> int:
 def likeness(case: Case, count: int, driver: str) -> float:
     """Return the mean correlation of two of so many instants of a block; dry ones lie far apart.
 
-    The share of the load on the solids: `python -m benchmarks.film.time_step alike`.
+    The share of the load on the solids: `python -m benchmarks.film.time_step`.
     """
     if driver == "dry" or not case.loaded or count < 2:
         return 0.0

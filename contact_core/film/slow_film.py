@@ -116,7 +116,7 @@ def _on_nodes(smooth: _Smooth, part: float, solve: Solve) -> Array:
 
 @lru_cache(maxsize=32)
 def _rest(smooth: _Smooth, solve: Solve) -> Array:
-    """Return the mass of a steady film less Hertz's gap [m]; where there is none, that of the formula everywhere."""
+    """Return the mass of a steady film less Hertz's gap [m]; without a solution a constant, which has no effect."""
     grid, (load, speed) = smooth.grid, smooth.near
     if grid.periodic:  # all rows are alike
         grid = replace(grid, y=np.zeros(1), repeats=grid.repeats * grid.y.size)

@@ -10,7 +10,7 @@ class Error(NamedTuple):
     time: float = 0.0  # steps in time: blocks
     sampling: float = 0.0  # the few instants at which a block is solved
     grid: float = 0.0  # distance of the nodes
-    iteration: float = 0.0  # solutions that stop early
+    iteration: float = 0.0  # solutions that stop early, and time steps in which contacts begin and end
     curves: float = 0.0  # fitted curves of the regression level
     inlet: float = 0.0  # a domain that ends within the inlet
 

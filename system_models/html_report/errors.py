@@ -114,7 +114,7 @@ _MEANING = {
     "time": "steps in time: blocks of the evolution that are not infinitely short",
     "sampling": "few instants: each block is solved at a few instants of passing roughness",
     "grid": "grid: the distance of its nodes",
-    "iteration": "early stop: solutions are stopped at film.tolerance",
+    "iteration": "early stop: solutions are stopped at film.tolerance, and contacts begin and end between instants",
     "curves": "fitted curves: the regression level's distance from the deterministic level",
     "inlet": "cut inlet: film.domain ends within the inlet, which leaves the film too thin",
 }
