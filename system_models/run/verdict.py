@@ -25,7 +25,7 @@ _CAUSES = {
     "time": "the time steps",
     "sampling": "the few instants solved",
     "grid": "the grid",
-    "iteration": "solutions that stop early",
+    "iteration": "the steps between instants and early stops",
     "curves": "the fitted curves",
     "inlet": "a domain that cuts the inlet off",
 }
