@@ -168,44 +168,85 @@ def lifts_of(near, wedge, dx):  # type: ignore[no-untyped-def]
 
 
 @jit
-def relax_lines(  # type: ignore[no-untyped-def]
-    p,
-    f,
-    solid,
-    stiff,
-    h,
-    mass,
-    ex,
-    ey,
-    r,
-    edge,
-    floor,
-    depth,
-    per_dt,
-    wedge,
-    dx,
-    near,
-    patch_wide,
-    lumped,
-    sweeps,
-    dp,
-    over_oil,
-    lack,
-    filling=None,
-    first=1,
-    wrapped=False,
-):
-    """Relax the linearised equation outside the stiff zone by lines, dp given inside it.
+def line_factors(  # type: ignore[no-untyped-def]
+    p, solid, stiff, h, mass, ex, ey, r, edge, floor, depth, per_dt, wedge, dx, near, patch_wide, lumped, flows,
+    over_oil, lack, filling, first, alone, free, lower, pivot, ratio, rhs, south, north, rho,
+):  # fmt: skip
+    """Compute the linearised equation of the nodes outside the stiff zone, [ny, nx], and its factors along lines.
 
-    Updates dp; keeps p + dp >= 0, and so the fluid pressure f of nodes at which asperities carry some. over_oil, lack:
-    from `asperities.share_out`, of no meaning where depth is 0.
+    At node i: lower x_(i-1) + x_i / pivot' + upper x_(i+1) = rhs + south x_(j-1) + north x_(j+1) - far, pivot and ratio
+    those of the elimination from left to right. flows: as in `correct_gap`; far: what nodes two and three away lift,
+    rho times `far_lift`. over_oil, lack: from `asperities.share_out`, of no meaning where depth is 0. alone: a row that
+    is its own neighbour.
     """
     ny, nx = p.shape
     per_dx2 = 1.0 / (dx * dx)
-    w_3, w_2, w_1, w0, w1, w2 = lifts_of(near, wedge, dx)
-    w0 += per_dt * patch_wide
-    ratio, known, free = np.zeros(nx), np.zeros(nx), np.zeros(nx, np.bool_)
-    alone = wrapped and ny == 3  # a row that is its own neighbour
+    lifts = lifts_of(near, wedge if flows else 0.0, dx)
+    w_1, w0, w1 = lifts[2], lifts[3] + per_dt * patch_wide, lifts[4]
+    for j in range(1, ny - 1):
+        for i in range(1, nx - 1):
+            ratio[j, i] = 0.0
+            # a cavity stays one: its pressure would go below zero with its neighbours'
+            free[j, i] = not stiff[j, i] and (p[j, i] > 0.0 or r[j, i] > 0.0)
+            if not free[j, i]:
+                continue
+            west, east = per_dx2 * ex[j, i - 1], per_dx2 * ex[j, i]
+            below, above = (0.0, 0.0) if alone else (per_dx2 * ey[j - 1, i], per_dx2 * ey[j, i])
+            back = 0.0 if filling is None else returned(filling, first, per_dt, wedge, dx, j, i)
+            # of an asperity that presses less as the bodies part, the oil takes over
+            over_west, over_east, over_below, over_above, over_own = 1.0, 1.0, 1.0, 1.0, 1.0
+            value = r[j, i]
+            if depth > 0.0:
+                over_own, over_west, over_east = over_oil[j, i], over_oil[j, i - 1], over_oil[j, i + 1]
+                over_below, over_above = over_oil[j - 1, i], over_oil[j + 1, i]
+                own = (1.0 - back) * west + east + below + above
+                value += west * lack[j, i - 1] + east * lack[j, i + 1] - own * lack[j, i]
+                value += below * lack[j - 1, i] + above * lack[j + 1, i]
+            # at the floor the flow does not depend on the deformation
+            dense = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0
+            diag = (west + east + below + above - back * west) * over_own + dense * w0
+            before, after = dense * w_1, dense * w1
+            # the fluid pressure of a solid contact stays in this step
+            if lumped or not solid[j, i - 1]:
+                before -= west * over_west
+            if lumped or not solid[j, i + 1]:
+                after -= east * over_east
+            south[j, i] = below * over_below if lumped or not solid[j - 1, i] else 0.0
+            north[j, i] = above * over_above if lumped or not solid[j + 1, i] else 0.0
+            if i == 1:
+                diag += before * edge[j, 0]
+            if i == nx - 2:
+                diag += after * edge[j, nx - 1]
+            if j == 1:
+                diag -= below * over_below * edge[0, i]
+            if j == ny - 2:
+                diag -= above * over_above * edge[ny - 1, i]
+            lower[j, i], rhs[j, i], rho[j, i] = before, value, dense
+            pivot[j, i] = 1.0 / (diag - before * ratio[j, i - 1])
+            ratio[j, i] = after * pivot[j, i]
+
+
+@jit
+def _far_lift(dp, j, i, w_3, w_2, w2):  # type: ignore[no-untyped-def]
+    """Return what dp of nodes two and three away on the line lifts."""
+    nx = dp.shape[1]
+    far = w2 * dp[j, i + 2] if i < nx - 2 else 0.0
+    far += w_2 * dp[j, i - 2] if i > 1 else 0.0
+    return far + (w_3 * dp[j, i - 3] if i > 2 else 0.0)
+
+
+@jit
+def relax_lines(  # type: ignore[no-untyped-def]
+    p, f, depth, wedge, dx, near, flows, sweeps, dp, over_oil, alone, wrapped,
+    free, lower, pivot, ratio, rhs, south, north, rho,
+):  # fmt: skip
+    """Relax the equation of `line_factors` by lines, dp given where nodes are not free.
+
+    Updates dp; keeps p + dp >= 0, and so the fluid pressure f of nodes at which asperities carry some.
+    """
+    ny, nx = p.shape
+    w_3, w_2, _, _, _, w2 = lifts_of(near, wedge, dx)
+    known = np.zeros(nx)
     over = 1.0 if alone else _OVER
     if wrapped:
         wrap(dp)
@@ -214,61 +255,18 @@ def relax_lines(  # type: ignore[no-untyped-def]
             j = row if sweep % 2 == 0 else ny - 1 - row
             first, last = nx, 0
             for i in range(1, nx - 1):
-                ratio[i], known[i], free[i] = 0.0, dp[j, i], False
-                if stiff[j, i]:
+                known[i] = dp[j, i]
+                if not free[j, i]:
                     continue
-                if p[j, i] <= 0.0 and r[j, i] <= 0.0:  # a cavity: its pressure would go below zero with its neighbours'
-                    continue
-                free[i] = True
                 first, last = min(first, i), i
-                west, east = per_dx2 * ex[j, i - 1], per_dx2 * ex[j, i]
-                south, north = per_dx2 * ey[j - 1, i], per_dx2 * ey[j, i]
-                if alone:
-                    south, north = 0.0, 0.0
-                # of an asperity that presses less as the bodies part, the oil takes over
-                over_west, over_east, over_south, over_north, over_own = 1.0, 1.0, 1.0, 1.0, 1.0
-                if depth > 0.0:
-                    over_own, over_west, over_east = over_oil[j, i], over_oil[j, i - 1], over_oil[j, i + 1]
-                    over_south, over_north = over_oil[j - 1, i], over_oil[j + 1, i]
-                # at the floor the flow does not depend on the deformation
-                rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0
-                far = w2 * dp[j, i + 2] if i < nx - 2 else 0.0
-                far += w_2 * dp[j, i - 2] if i > 1 else 0.0
-                far += w_3 * dp[j, i - 3] if i > 2 else 0.0
-                diag = (west + east + south + north) * over_own + rho * w0
-                if filling is not None:
-                    diag -= returned(filling, first, per_dt, wedge, dx, j, i) * west * over_own
-                lower, upper = rho * w_1, rho * w1
-                rhs = r[j, i] - rho * far
-                if depth > 0.0:
-                    back = 0.0 if filling is None else returned(filling, first, per_dt, wedge, dx, j, i)
-                    own = (1.0 - back) * west + east + south + north
-                    rhs += west * lack[j, i - 1] + east * lack[j, i + 1] - own * lack[j, i]
-                    rhs += south * lack[j - 1, i] + north * lack[j + 1, i]
-                # the fluid pressure of a solid contact stays in this step
-                if lumped or not solid[j, i - 1]:
-                    lower -= west * over_west
-                if lumped or not solid[j, i + 1]:
-                    upper -= east * over_east
-                if lumped or not solid[j - 1, i]:
-                    rhs += south * over_south * dp[j - 1, i]
-                if lumped or not solid[j + 1, i]:
-                    rhs += north * over_north * dp[j + 1, i]
-                if i == 1:
-                    diag += lower * edge[j, 0]
-                if i == nx - 2:
-                    diag += upper * edge[j, nx - 1]
-                if j == 1:
-                    diag -= south * over_south * edge[0, i]
-                if j == ny - 2:
-                    diag -= north * over_north * edge[ny - 1, i]
-                pivot = 1.0 / (diag - lower * ratio[i - 1])
-                ratio[i] = upper * pivot
-                known[i] = (rhs - lower * known[i - 1]) * pivot
+                value = rhs[j, i] + south[j, i] * dp[j - 1, i] + north[j, i] * dp[j + 1, i]
+                if flows:
+                    value -= rho[j, i] * _far_lift(dp, j, i, w_3, w_2, w2)
+                known[i] = (value - lower[j, i] * known[i - 1]) * pivot[j, i]
             value = known[last + 1] if last < nx - 2 else 0.0
             for i in range(last, first - 1, -1):
-                value = known[i] - ratio[i] * value
-                if free[i]:
+                value = known[i] - ratio[j, i] * value
+                if free[j, i]:
                     least = -p[j, i]
                     if depth > 0.0 and f[j, i] < p[j, i]:
                         least = -f[j, i] / over_oil[j, i]

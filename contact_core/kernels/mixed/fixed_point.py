@@ -30,7 +30,10 @@ Mask = NDArray[np.bool_]
 _DEPTH = 3  # of Anderson's memory: more does not help where contacts change
 _SWEEPS_UNDER_CONTACTS = 6
 _STIFF_STEP = 0.4  # part of their correction that nodes in the stiff zone take
-_RENEW = 0.02  # share of the stiff zone that changes before the lever of the load is computed anew
+# nodes per unit of length, from which on an iteration of a march takes two more sweeps of the lines, and two more at
+# each multiple: a sweep reaches a few nodes, and oil flows as far as on a coarser grid
+_NODES_PER_SWEEPS, _MOST_SWEEPS = 30.0, 9
+_RENEW = 0.3  # share of the stiff zone that changes before the lever of the load is computed anew
 _LEAST_PART = 0.1  # of the load, that the balance of a film that conserves its mass counts with
 # oil of this part of what asperities carry is none where cavities hold oil: p - s(h) is a small difference there, and
 # its sign would decide between a cavity and a full node anew in every iteration
@@ -146,8 +149,12 @@ class Iteration:
         self.f, self.solid = start.fluid.copy(), start.solid.copy()
         self.h, self.mass, self.r, self.dh, self.dp, self.unit = (np.zeros(shape) for _ in range(6))
         self.flow = Flow.of(problem)
+        self.marching = problem.slow_mass is not None
+        if self.marching:
+            self.sweeps = min(1 + 2 * int(1.0 / (_NODES_PER_SWEEPS * problem.spacing)), _MOST_SWEEPS)
         self.stiff, self.stiff_of_unit = (np.zeros(shape, np.bool_) for _ in range(2))
         self.over_oil, self.lack = np.zeros(shape), np.zeros(shape)
+        self.free, self.lines = np.zeros(shape, np.bool_), [np.zeros(shape) for _ in range(7)]
         self.ruled = self.solid.copy() if problem.depth > 0.0 else None
         self.sums = np.zeros(7)
         self.carried = Carried(problem) if problem.by_flux else None
@@ -208,7 +215,7 @@ class Iteration:
             if reynolds.fluid_under_contacts(p, f, solid, *balance, *constants, full, *flow.nodes, first, q.wrapped):
                 self._carry(full)
         scales = (*q.layer, *q.terms, q.compliance, self.patch)
-        out = (self.r, self.stiff, self.dh, self.sums, flow.slow is None)
+        out = (self.r, self.stiff, self.dh, self.sums, not self.marching)
         state = (p, f, q.cap, solid, *balance)
         self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, filling, first)
         if isinstance(self.half_space, GivingHalfSpace):  # the node itself gives way by a part of the change
@@ -240,15 +247,20 @@ class Iteration:
     def _relax(self) -> None:
         """Relax the pressure off the stiff zone by lines."""
         q, p = self.problem, self.p
-        film = (self.h, self.mass, *self.flow.faces, self.r, q.edge, q.floor, q.depth, *q.terms)
-        near = (self.half_space.near, self.patch_wide)
-        inlet = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
-        layer = (self.over_oil, self.lack)
+        near, inlet = self.half_space.near, (None, 1)
+        if self.carried is not None:
+            inlet = self.carried.filling, self.carried.first
         if self.ruled is not None:
-            scales = (self.half_space.near[0, 0], self.patch, q.compliance * q.spacing**2)
-            share_out(p, self.h, self.solid, *self.flow.faces, *q.layer, *scales, self.ruled, *layer)
-        relaxation = (q.lumped, self.sweeps, self.dp, *layer, *inlet, q.wrapped)
-        corrections.relax_lines(p, self.f, self.solid, self.stiff, *film, *near, *relaxation)
+            scales = (near[0, 0], self.patch, q.compliance * q.spacing**2)
+            layer = (self.ruled, self.over_oil, self.lack)
+            share_out(p, self.h, self.solid, *self.flow.faces, *q.layer, *scales, *layer)
+        flows, alone = not self.marching, q.wrapped and p.shape[0] == 3
+        film = (p, self.solid, self.stiff, self.h, self.mass, *self.flow.faces, self.r, q.edge, q.floor, q.depth)
+        scales = (*q.terms, near, self.patch_wide, q.lumped, flows)
+        corrections.line_factors(*film, *scales, self.over_oil, self.lack, *inlet, alone, self.free, *self.lines)
+        scales = (q.depth, q.wedge, q.spacing, near, flows, self.sweeps)
+        neighbours = (self.dp, self.over_oil, alone, q.wrapped)
+        corrections.relax_lines(p, self.f, *scales, *neighbours, self.free, *self.lines)
 
     def assess(self, n: int, tolerance: float) -> Solution:
         """Return the present pressure with its convergence.
