@@ -50,9 +50,13 @@ def test_a_scene_of_the_thesis_has_the_contact_of_the_shipped_one(shipped, name)
 
 @cache
 def first_minutes(srr: float) -> list[Outputs]:
-    """Case A at a slide-to-roll ratio: outputs at the start and after 1 to 3 min, on 33 nodes, white on them."""
+    """Case A at a slide-to-roll ratio: outputs at the start and after 1 to 3 min, on 33 nodes, white on them.
+
+    A block samples one pass: the film of neighbouring instants scatters by more than what it rises by.
+    """
     coarse = {
         "film.points": "33",
+        "control.mixed_instants": "32",
         "surface_1.correlation_length": "15.625 um",
         "surface_2.correlation_length": "15.625 um",
     }

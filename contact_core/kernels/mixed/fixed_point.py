@@ -33,7 +33,7 @@ _STIFF_STEP = 0.4  # part of their correction that nodes in the stiff zone take
 # nodes per unit of length, from which on an iteration of a march takes two more sweeps of the lines, and two more at
 # each multiple: a sweep reaches a few nodes, and oil flows as far as on a coarser grid
 _NODES_PER_SWEEPS, _MOST_SWEEPS = 30.0, 9
-_RENEW = 0.3  # share of the stiff zone that changes before the lever of the load is computed anew
+_RENEW, _RENEW_MARCHING = 0.02, 0.3  # share of the stiff zone that changes before the lever of the load is computed anew
 _LEAST_PART = 0.1  # of the load, that the balance of a film that conserves its mass counts with
 # oil of this part of what asperities carry is none where cavities hold oil: p - s(h) is a small difference there, and
 # its sign would decide between a cavity and a full node anew in every iteration
@@ -138,6 +138,7 @@ class Iteration:
     """One fixed-point iteration and its scratch arrays."""
 
     sweeps = 1  # of the lines, in an iteration
+    renew = _RENEW
 
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate, depth: int, stiff_step: float) -> None:
         self.half_space, self.problem, self.start, self.stiff_step = half_space, problem, start, stiff_step
@@ -151,6 +152,7 @@ class Iteration:
         self.flow = Flow.of(problem)
         self.marching = problem.slow_mass is not None
         if self.marching:
+            self.renew = _RENEW_MARCHING
             self.sweeps = min(1 + 2 * int(1.0 / (_NODES_PER_SWEEPS * problem.spacing)), _MOST_SWEEPS)
         self.stiff, self.stiff_of_unit = (np.zeros(shape, np.bool_) for _ in range(2))
         self.over_oil, self.lack = np.zeros(shape), np.zeros(shape)
@@ -236,7 +238,7 @@ class Iteration:
             self.dp[:] = 0.0
             return
         inverse = self.half_space.press_part(bottom - top, right - left)
-        if changed > _RENEW * count:
+        if changed > self.renew * count:
             _place(self.stiff, top, bottom, left, right, inverse.field)
             self.unit[:] = 0.0
             self.unit[top:bottom, left:right] = inverse.run()[: bottom - top, : right - left]
