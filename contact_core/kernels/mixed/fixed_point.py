@@ -33,7 +33,8 @@ _STIFF_STEP = 0.4  # part of their correction that nodes in the stiff zone take
 # nodes per unit of length, from which on an iteration of a march takes two more sweeps of the lines, and two more at
 # each multiple: a sweep reaches a few nodes, and oil flows as far as on a coarser grid
 _NODES_PER_SWEEPS, _MOST_SWEEPS = 30.0, 9
-_RENEW, _RENEW_MARCHING = 0.02, 0.3  # share of the stiff zone that changes before the lever of the load is computed anew
+# share of the stiff zone that changes before the lever of the load is computed anew, in steady films and in marches
+_RENEW, _RENEW_MARCHING = 0.02, 0.3
 _LEAST_PART = 0.1  # of the load, that the balance of a film that conserves its mass counts with
 # oil of this part of what asperities carry is none where cavities hold oil: p - s(h) is a small difference there, and
 # its sign would decide between a cavity and a full node anew in every iteration
@@ -248,21 +249,18 @@ class Iteration:
 
     def _relax(self) -> None:
         """Relax the pressure off the stiff zone by lines."""
-        q, p = self.problem, self.p
-        near, inlet = self.half_space.near, (None, 1)
-        if self.carried is not None:
-            inlet = self.carried.filling, self.carried.first
-        if self.ruled is not None:
-            scales = (near[0, 0], self.patch, q.compliance * q.spacing**2)
-            layer = (self.ruled, self.over_oil, self.lack)
-            share_out(p, self.h, self.solid, *self.flow.faces, *q.layer, *scales, *layer)
+        q, p, near, faces = self.problem, self.p, self.half_space.near, self.flow.faces
         flows, alone = not self.marching, q.wrapped and p.shape[0] == 3
-        film = (p, self.solid, self.stiff, self.h, self.mass, *self.flow.faces, self.r, q.edge, q.floor, q.depth)
+        layer = (self.over_oil, self.lack)
+        inlet = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
+        if self.ruled is not None:
+            softness = (near[0, 0], self.patch, q.compliance * q.spacing**2)
+            share_out(p, self.h, self.solid, *faces, *q.layer, *softness, self.ruled, *layer)
+        film = (p, self.solid, self.stiff, self.h, self.mass, *faces, self.r, q.edge, q.floor, q.depth)
         scales = (*q.terms, near, self.patch_wide, q.lumped, flows)
-        corrections.line_factors(*film, *scales, self.over_oil, self.lack, *inlet, alone, self.free, *self.lines)
-        scales = (q.depth, q.wedge, q.spacing, near, flows, self.sweeps)
-        neighbours = (self.dp, self.over_oil, alone, q.wrapped)
-        corrections.relax_lines(p, self.f, *scales, *neighbours, self.free, *self.lines)
+        corrections.line_factors(*film, *scales, *layer, *inlet, alone, self.free, *self.lines)
+        lines = (q.depth, q.wedge, q.spacing, near, flows, self.sweeps, self.dp, self.over_oil, alone, q.wrapped)
+        corrections.relax_lines(p, self.f, *lines, self.free, *self.lines)
 
     def assess(self, n: int, tolerance: float) -> Solution:
         """Return the present pressure with its convergence.
