@@ -250,17 +250,18 @@ class Iteration:
     def _relax(self) -> None:
         """Relax the pressure off the stiff zone by lines."""
         q, p, near, faces = self.problem, self.p, self.half_space.near, self.flow.faces
-        flows, alone = not self.marching, q.wrapped and p.shape[0] == 3
+        flows, alone = not self.marching, q.wrapped and q.cap.shape[0] == 3
         layer = (self.over_oil, self.lack)
-        inlet = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
+        filling, first = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
         if self.ruled is not None:
             softness = (near[0, 0], self.patch, q.compliance * q.spacing**2)
             share_out(p, self.h, self.solid, *faces, *q.layer, *softness, self.ruled, *layer)
         film = (p, self.solid, self.stiff, self.h, self.mass, *faces, self.r, q.edge, q.floor, q.depth)
         scales = (*q.terms, near, self.patch_wide, q.lumped, flows)
-        corrections.line_factors(*film, *scales, *layer, *inlet, alone, self.free, *self.lines)
+        out = (self.free, *self.lines)
+        corrections.line_factors(*film, *scales, *layer, filling, first, alone, *out)
         lines = (q.depth, q.wedge, q.spacing, near, flows, self.sweeps, self.dp, self.over_oil, alone, q.wrapped)
-        corrections.relax_lines(p, self.f, *lines, self.free, *self.lines)
+        corrections.relax_lines(p, self.f, *lines, *out)
 
     def assess(self, n: int, tolerance: float) -> Solution:
         """Return the present pressure with its convergence.
