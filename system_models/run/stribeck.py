@@ -202,7 +202,7 @@ def measure(
     progress("done", curves.count)
 
 
-_Point = tuple[int, int, Scene, OperatingPoint, ContactState]  # numbers of rubbing time and speed, and what is solved
+_Point = tuple[int, int, Scene, Plan, ContactState]  # numbers of rubbing time and speed; the rubbed state
 
 
 class _Sweeps:
@@ -218,8 +218,9 @@ class _Sweeps:
     def asked(self) -> Iterator[_Point | None]:
         """Rub the contact; yield the points of each stop, the slow ones first, which take longest, and None between."""
         curves, plan = self._curves, self._curves.plan
-        # however near the speed of the duty, a speed is solved for itself
-        sharp = replace(self._scene, control=replace(self._scene.control, input_change=0.0))
+        # a speed is solved for itself however near that of the duty, and until its film has settled
+        control = replace(self._scene.control, input_change=0.0, inputs="quasi_steady")
+        sharp = replace(self._scene, control=control)
         try:
             for time, state, outputs in _rubbed(self._scene, self._duty, plan.times):
                 self._progress(f"rubbed {time / 60.0:.0f} min", curves.count)
@@ -229,7 +230,7 @@ class _Sweeps:
                     for j in reversed(range(len(plan.speeds))):
                         if self._alone:
                             self._show(i, j)
-                        self.left[i, j] = (i, j, sharp, plan.point(plan.speeds[j]), state)
+                        self.left[i, j] = (i, j, sharp, plan, state)
                         yield self.left[i, j]
                 yield None
         except ContactError as error:
@@ -255,11 +256,11 @@ class _Sweeps:
 
 
 def _solved(
-    i: int, j: int, scene: Scene, op: OperatingPoint, state: ContactState
+    i: int, j: int, scene: Scene, plan: Plan, state: ContactState
 ) -> tuple[int, int, Outputs | ConvergenceError]:
     """Return a point's numbers, and its outputs or why there are none."""
     try:
-        return i, j, advance(scene, op, state, 0.0)[1]
+        return i, j, advance(scene, plan.point(plan.speeds[j]), state, 0.0)[1]
     except ConvergenceError as error:
         return i, j, error
 

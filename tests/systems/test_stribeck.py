@@ -175,6 +175,14 @@ def test_a_speed_within_the_scenes_tolerance_of_the_duty_is_solved_for_itself(sc
     assert len({*found.tolist(), outputs.h_c}) == 3
 
 
+def test_films_settle_at_each_speed_also_where_they_follow_the_inputs_of_the_duty(
+    scene: Scene, duty: Duty, plan: Plan, swept: xr.Dataset
+) -> None:
+    following = replace(scene, control=replace(scene.control, inputs="transient"))
+    found = curves_of(following, duty, replace(plan, times=(0.0,))).dataset(following, duty)
+    assert found["h_c"].values[0].tolist() == swept["h_c"].values[0].tolist()
+
+
 def test_rubbing_is_that_of_a_run_bit_for_bit(scene: Scene, duty: Duty, dataset: xr.Dataset) -> None:
     (_, first), (_, last) = rubbing(scene, duty, (0.0, 72.0))
     for name in ("friction_coefficient", "tribofilm_1", "wear_depth_2", "roughness_2"):
