@@ -21,6 +21,6 @@ def listening(listener: Listener) -> Iterator[None]:
 
 
 def tell(what: str, number: int, total: int) -> None:
-    """Tell all listeners that part `number` of `total` begins, such as ("instant", 3, 35)."""
+    """Tell all listeners that part `number` of `total` begins, such as ("instant", 3, 35); of 0: that none does."""
     for listener in _listeners:
         listener(what, number, total)

@@ -54,6 +54,9 @@ class _Doing:
         if what == ALGORITHM:  # within the part that was told before; the first one goes without saying
             self._within = f", {what} {number} of {total}" if number > 1 else ""
             return
+        if not total:
+            self._told, self._within, self._done = "", "", 0
+            return
         if number == 1 or not self._told:
             self._begin, self._first, self._compiling = monotonic(), number, 0.0
         self._told, self._within = f"{what} {number} of {total}", ""

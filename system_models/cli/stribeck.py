@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
+from contact_core.quantities import UNSOLVED
 from contact_core.scene import Scene, units
 
 from .console import output_folder
+from .map import processes_of
 from .overwriting import ask_before
 from .progress import counted
 from .scenes import add_scene, ask_back, contact, warn
@@ -40,6 +42,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="R",
         help="slide-to-roll ratio (u1 - u2) / u_e, such as 0.1 or '10 %%' (default: that of the scene)",
     )
+    parser.add_argument(
+        "--processes",
+        metavar="N",
+        type=int,
+        help="processes that solve the points of the sweeps while this one rubs; 1: this one alone (default: one for "
+        "each core; 1 for levels that solve no contact)",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -49,6 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..store.checkpoint import alone
 
     scene, duty = contact(arguments)
+    processes = _processes(arguments.processes, scene)
     plan = Plan.of(
         duty,
         _rubbing_times(arguments.times),
@@ -66,7 +76,7 @@ def run(arguments: argparse.Namespace) -> int:
     with alone(folder):
         ask_before(folder, attributes(scene, duty), arguments.force, "stribeck")
         try:
-            _sweep(scene, duty, curves)
+            _sweep(scene, duty, curves, processes)
         except KeyboardInterrupt:
             raise KeyboardInterrupt(_kept(scene, duty, curves, folder)) from None
         except ContactError as error:
@@ -110,12 +120,19 @@ def _plain_or_with_unit(option: str, text: str, unit: str) -> float:
     return units.parse(text, unit, option)
 
 
-def _sweep(scene: Scene, duty: "Duty", curves: "Curves") -> None:
+def _processes(asked: int | None, scene: Scene) -> int:
+    """Return --processes; to start some takes longer than points that solve no contact."""
+    from ..run.workers import cores
+
+    return processes_of(asked) if asked is not None else 1 if scene.film.name in UNSOLVED else cores()
+
+
+def _sweep(scene: Scene, duty: "Duty", curves: "Curves", processes: int) -> None:
     """Measure the curves, with a progress bar in points."""
     from ..run.stribeck import measure
 
     with counted(scene.name, "points", len(curves.plan.times) * len(curves.plan.speeds)) as show:
-        measure(scene, duty, curves, lambda stage, count: show(count, f"{scene.name}, {stage}"))
+        measure(scene, duty, curves, lambda stage, count: show(count, f"{scene.name}, {stage}"), processes)
 
 
 def _kept(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -> str:

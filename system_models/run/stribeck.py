@@ -8,8 +8,9 @@ use the same stretch of the surfaces.
 
 import logging
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 import xarray as xr
@@ -17,12 +18,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from contact_core import ContactState, OperatingPoint, Outputs, Scene, advance, initial_state
 from contact_core.errors import ContactError, ConvergenceError
+from contact_core.progress import tell
 from contact_core.quantities import TABLE
 
 from ..store.results import with_half_widths
 from .contact import communication_points
 from .duty import Duty
 from .origin import with_scene
+from .workers import Workers, WorkersLostError, done_by, workers
 
 log = logging.getLogger(__name__)
 
@@ -102,7 +105,7 @@ class Curves:
         self._rubbed = {name: np.full(shape[0], np.nan) for name in _RUBBED}
         self._flags = np.zeros(shape, np.int64)
         self._valid = np.zeros(shape, np.bool_)
-        self._failures: list[str] = []
+        self._failures: dict[tuple[int, int], str] = {}
 
     @property
     def count(self) -> int:
@@ -123,7 +126,7 @@ class Curves:
     def failed(self, i: int, j: int, error: ConvergenceError) -> None:
         """Keep why there is no answer, and say so."""
         sentence = f"After {self.plan.times[i] / 60.0:g} min at {self.plan.speeds[j]:.4g} m/s: {error}"
-        self._failures.append(sentence)
+        self._failures[i, j] = sentence
         log.warning("%s", sentence)
 
     def dataset(self, scene: Scene, duty: Duty) -> xr.Dataset:
@@ -148,7 +151,8 @@ class Curves:
         }
         found = with_half_widths(xr.Dataset(variables, self._coordinates()))
         missing = self._valid.size - self.count
-        sentences = [*self._failures, *([f"{missing} points were not reached."] if missing else [])]
+        failures = [sentence for _, sentence in sorted(self._failures.items())]
+        sentences = [*failures, *([f"{missing} points were not reached."] if missing else [])]
         return with_scene(found, scene, duty).assign_attrs(
             film=scene.film.name, friction_midway=level, failures="\n".join(sentences)
         )
@@ -172,45 +176,110 @@ class Curves:
 
 
 def measure(
-    scene: Scene, duty: Duty, curves: Curves, progress: Callable[[str, int], None] = lambda stage, count: None
+    scene: Scene,
+    duty: Duty,
+    curves: Curves,
+    progress: Callable[[str, int], None] = lambda stage, count: None,
+    processes: int = 1,
 ) -> None:
     """Rub the contact and fill `curves`, which keep their points if this ends early.
 
-    `progress` is called with words for the next stage and the number of points so far. A point without a solution is
-    kept as such; ContactError means that the rubbing itself cannot continue.
+    With several `processes`, so many solve points while this one rubs; what they find is the same to the bit. If one of
+    them is lost, this process solves what is left. `progress` is called with words for the next stage and the number of
+    points so far. A point without a solution is kept as such; ContactError means that the rubbing itself cannot
+    continue, and comes once all points before that are solved.
     """
-    plan = curves.plan
-    # however near the speed of the duty, a speed is solved for itself
-    sharp = replace(scene, control=replace(scene.control, input_change=0.0))
-    stops = rubbing(scene, duty, plan.times, lambda time: progress(f"rubbed {time / 60.0:.0f} min", curves.count))
-    for i, (state, outputs) in enumerate(stops):
-        curves.rubbed(i, outputs)
-        for j, speed in enumerate(plan.speeds):
-            progress(f"{plan.times[i] / 60.0:g} min, {speed:.3g} m/s", curves.count)
-            try:
-                _, outputs = advance(sharp, plan.point(speed), state, 0.0)
-            except ConvergenceError as error:
-                curves.failed(i, j, error)
-            else:
-                curves.swept(i, j, outputs)
+    sweeps = _Sweeps(scene, duty, curves, progress)
+    points = sweeps.asked()
+    try:
+        with workers(min(processes, sweeps.size), None) as given:
+            sweeps.take(given, points)
+    except WorkersLostError as loss:
+        log.warning("%s What is left is solved in one process.", loss.reason)
+        sweeps.take(Workers(), chain([*sweeps.left.values()], points))
+    if sweeps.refusal:
+        raise sweeps.refusal
     progress("done", curves.count)
 
 
-def rubbing(
-    scene: Scene, duty: Duty, times: Sequence[float], progress: Callable[[float], None] = lambda time: None
-) -> Iterator[tuple[ContactState, Outputs]]:
+_Point = tuple[int, int, Scene, Plan, ContactState]  # numbers of rubbing time and speed; the rubbed state
+
+
+class _Sweeps:
+    """The points of all sweeps: those asked for have no answer yet as long as they are `left`."""
+
+    def __init__(self, scene: Scene, duty: Duty, curves: Curves, progress: Callable[[str, int], None]) -> None:
+        self._scene, self._duty, self._curves, self._progress = scene, duty, curves, progress
+        self.size = len(curves.plan.times) * len(curves.plan.speeds)
+        self.left: dict[tuple[int, int], _Point] = {}
+        self.refusal: ContactError | None = None  # why the rubbing has ended early
+        self._alone = True
+
+    def asked(self) -> Iterator[_Point | None]:
+        """Rub the contact; yield the points of each stop, the slow ones first, which take longest, and None between."""
+        curves, plan = self._curves, self._curves.plan
+        # a speed is solved for itself however near that of the duty, and until its film has settled
+        control = replace(self._scene.control, input_change=0.0, inputs="quasi_steady")
+        sharp = replace(self._scene, control=control)
+        try:
+            for time, state, outputs in _rubbed(self._scene, self._duty, plan.times):
+                self._progress(f"rubbed {time / 60.0:.0f} min", curves.count)
+                if time in plan.times:
+                    i = plan.times.index(time)
+                    curves.rubbed(i, outputs)
+                    for j in reversed(range(len(plan.speeds))):
+                        if self._alone:
+                            self._show(i, j)
+                        self.left[i, j] = (i, j, sharp, plan, state)
+                        yield self.left[i, j]
+                yield None
+        except ContactError as error:
+            self.refusal = error
+        tell("", 0, 0)  # this process has no part of its own any more
+
+    def take(self, given: Workers, points: Iterator[_Point | None]) -> None:
+        """Let workers solve points, and keep what they find."""
+        self._alone = given.executor is None  # each point is solved as soon as it is asked for
+        with closing(done_by(given, _solved, points, self.size)) as answers:
+            for i, j, answer in answers:
+                del self.left[i, j]
+                if isinstance(answer, ConvergenceError):
+                    self._curves.failed(i, j, answer)
+                else:
+                    self._curves.swept(i, j, answer)
+                if not self._alone:
+                    self._show(i, j)
+
+    def _show(self, i: int, j: int) -> None:
+        plan = self._curves.plan
+        self._progress(f"{plan.times[i] / 60.0:g} min, {plan.speeds[j]:.3g} m/s", self._curves.count)
+
+
+def _solved(
+    i: int, j: int, scene: Scene, plan: Plan, state: ContactState
+) -> tuple[int, int, Outputs | ConvergenceError]:
+    """Return a point's numbers, and its outputs or why there are none."""
+    try:
+        return i, j, advance(scene, plan.point(plan.speeds[j]), state, 0.0)[1]
+    except ConvergenceError as error:
+        return i, j, error
+
+
+def rubbing(scene: Scene, duty: Duty, times: Sequence[float]) -> Iterator[tuple[ContactState, Outputs]]:
     """Yield state and outputs after each of the increasing `times` [s] of the duty, in the steps of a run with it."""
+    return ((state, outputs) for time, state, outputs in _rubbed(scene, duty, times) if time in times)
+
+
+def _rubbed(scene: Scene, duty: Duty, times: Sequence[float]) -> Iterator[tuple[float, ContactState, Outputs]]:
+    """Yield time [s], state and outputs at the beginning and after each step of the rubbing."""
     rows = tuple(sorted({*duty.times, *times}))
     steps = Duty(rows, tuple(duty.at(time) for time in rows))
     points = communication_points(steps, times[-1], scene.operation.interval) if times[-1] > 0.0 else [0.0]
     state, outputs = advance(scene, duty.at(0.0), initial_state(scene), 0.0)
-    if times[0] == 0.0:
-        yield state, outputs
+    yield 0.0, state, outputs
     for time, end in pairwise(points):
         state, outputs = advance(scene, duty.at(time), state, end - time)
-        progress(end)
-        if end in times:
-            yield state, outputs
+        yield end, state, outputs
 
 
 def transition_speed(speeds: ArrayLike, values: ArrayLike, level: float = 0.5) -> float:

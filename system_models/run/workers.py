@@ -1,4 +1,4 @@
-"""Workers that solve the knots of maps and the points of sweeps: this process, others on this machine, or a cluster."""
+"""Workers that solve the parts of maps, sweeps and Stribeck curves: this process, others here, or a cluster."""
 
 import logging
 import os
@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from itertools import islice
-from multiprocessing import get_context, parent_process
+from multiprocessing import active_children, get_context, parent_process
 from typing import Any, TypeVar
 
 from contact_core.errors import ContactError
@@ -32,6 +32,14 @@ _LOOK = 5.0  # s without a result after which is asked whether any can come
 _ANSWER = 15.0  # s in which a scheduler must answer
 _PATIENCE = 20.0  # s in which lost workers of a cluster may start again
 _GOES_ON = "What is done is kept: the same command goes on from there."
+
+
+class WorkersLostError(ContactError):
+    """No result can come any more; `reason` says why."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(f"{reason} {_GOES_ON}")
+        self.reason = reason
 
 
 @dataclass(frozen=True)
@@ -56,11 +64,21 @@ def workers(processes: int, where: str | None) -> Iterator[Workers]:
     elif processes == 1:
         yield Workers()
     else:
+        others = active_children()
         with ProcessPoolExecutor(processes, get_context("spawn"), _begin_worker) as pool:
             try:
                 yield Workers(pool, processes, (BrokenExecutor,), _lost_of_pool)
+            except BaseException:  # nobody waits for what is being solved
+                for process in set(active_children()).difference(others):
+                    process.terminate()
+                raise
             finally:
                 pool.shutdown(wait=False, cancel_futures=True)
+
+
+def cores() -> int:
+    """Return the number of processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _lost_of_pool(loss: BaseException | None) -> str:
@@ -169,21 +187,27 @@ def _quiet(*names: str) -> Iterator[None]:
             logger.setLevel(level)
 
 
-def done_by(given: Workers, task: Callable[..., Result], arguments: Iterator[tuple[Any, ...]]) -> Generator[Result]:
+def done_by(
+    given: Workers, task: Callable[..., Result], arguments: Iterator[tuple[Any, ...] | None], most: int = 0
+) -> Generator[Result]:
     """Yield the results of a task as they come; more are asked for as long as results are taken.
 
-    Raises ContactError once no more can come, after all that have.
+    None among the arguments: the next ones take a while, and what has come is given first. At most so many tasks are
+    asked for at a time; 0: a few for each worker. Raises WorkersLostError once no more can come, after all that have.
     """
     if given.executor is None:
         for each in arguments:
-            yield task(*each)
+            if each is not None:
+                yield task(*each)
         return
+    most = most or _AHEAD * given.count
     asked: set[Future[Result]] = set()
     while True:
-        reason = _asked_for_more(given, task, arguments, asked)
-        if not asked and not reason:
+        tasks, later = _next(arguments, most - len(asked))
+        reason = _asked_for(given, task, tasks, asked)
+        if not (asked or later or reason):
             return
-        finished, asked = wait(asked, 0.0 if reason else _LOOK, FIRST_COMPLETED)
+        finished, asked = wait(asked, 0.0 if later or reason else _LOOK, FIRST_COMPLETED)
         for future in finished:
             try:
                 result = future.result()
@@ -191,20 +215,28 @@ def done_by(given: Workers, task: Callable[..., Result], arguments: Iterator[tup
                 reason = reason or given.lost(loss)
             else:
                 yield result
-        if reason := reason or ("" if finished else given.lost(None)):
-            raise ContactError(f"{reason} {_GOES_ON}")
+        if reason := reason or ("" if finished or later else given.lost(None)):
+            raise WorkersLostError(reason)
 
 
-def _asked_for_more(
-    given: Workers, task: Callable[..., Result], arguments: Iterator[tuple[Any, ...]], asked: set[Future[Result]]
+def _next(arguments: Iterator[tuple[Any, ...] | None], most: int) -> tuple[list[tuple[Any, ...]], bool]:
+    """Return the next arguments, and whether None has ended them."""
+    found: list[tuple[Any, ...]] = []
+    for each in islice(arguments, most):
+        if each is None:
+            return found, True
+        found.append(each)
+    return found, False
+
+
+def _asked_for(
+    given: Workers, task: Callable[..., Result], tasks: list[tuple[Any, ...]], asked: set[Future[Result]]
 ) -> str:
-    """Ask for more results; return why none can come, else an empty text."""
+    """Ask for results; return why none can come, else an empty text."""
     assert given.executor is not None
     with _interrupts_held():
         try:
-            asked.update(
-                given.executor.submit(task, *each) for each in islice(arguments, _AHEAD * given.count - len(asked))
-            )
+            asked.update(given.executor.submit(task, *each) for each in tasks)
         except given.losses as loss:
             return given.lost(loss)
     return ""

@@ -73,6 +73,14 @@ def test_time_left_is_estimated_from_the_parts_done(monkeypatch: pytest.MonkeyPa
     assert doing.text() == "instant 5 of 8, about 8 s left of them"
 
 
+def test_nothing_is_shown_once_no_part_is_left() -> None:
+    doing = alive._Doing()
+    doing.told("instant", 1, 8)
+    doing.told("instant", 8, 8)
+    doing.told("", 0, 0)
+    assert doing.text() == ""
+
+
 def test_time_left_of_parts_leaves_out_what_compiling_took(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = [100.0]
     monkeypatch.setattr(alive, "monotonic", lambda: clock[0])

@@ -1,6 +1,7 @@
 import csv
 import math
 from dataclasses import replace
+from multiprocessing import active_children
 from pathlib import Path
 from typing import Any
 
@@ -12,25 +13,32 @@ from comparison import approx
 from contact_core import ContactState, ConvergenceError, OperatingPoint, Outputs, RangeFlag, Scene, advance
 from contact_core.errors import ContactError
 from contact_core.quantities import TABLE
+from system_models.cli import stribeck as command
 from system_models.cli.main import main
-from system_models.run import stribeck, stribeck_report
+from system_models.run import stribeck, stribeck_report, workers
 from system_models.run.duty import Duty
 from system_models.run.stribeck import Curves, Plan, measure, rubbing, transition_speed
 from system_models.store import results
 
 FAST, SLOW = 8.0, 0.008
-DRY = ["--set", "control.driver=dry"]  # costs next to nothing
+DRY = ["--processes", "1", "--set", "control.driver=dry"]  # costs next to nothing
 
 
-def curves_of(scene: Scene, duty: Duty, plan: Plan) -> Curves:
+def curves_of(scene: Scene, duty: Duty, plan: Plan, processes: int = 1) -> Curves:
     curves = Curves(plan)
-    measure(scene, duty, curves)
+    measure(scene, duty, curves, processes=processes)
     return curves
 
 
 @pytest.fixture(scope="module")
 def plan(duty: Duty) -> Plan:
     return Plan.of(duty, [0.0, 72.0], FAST, SLOW, 3)
+
+
+@pytest.fixture(scope="module")
+def light(scene: Scene) -> Scene:
+    """The same with so little load that a fast film does not fit on the grid."""
+    return replace(scene, operation=replace(scene.operation, load=1.0))
 
 
 @pytest.fixture(scope="module")
@@ -167,6 +175,14 @@ def test_a_speed_within_the_scenes_tolerance_of_the_duty_is_solved_for_itself(sc
     assert len({*found.tolist(), outputs.h_c}) == 3
 
 
+def test_films_settle_at_each_speed_also_where_they_follow_the_inputs_of_the_duty(
+    scene: Scene, duty: Duty, plan: Plan, swept: xr.Dataset
+) -> None:
+    following = replace(scene, control=replace(scene.control, inputs="transient"))
+    found = curves_of(following, duty, replace(plan, times=(0.0,))).dataset(following, duty)
+    assert found["h_c"].values[0].tolist() == swept["h_c"].values[0].tolist()
+
+
 def test_rubbing_is_that_of_a_run_bit_for_bit(scene: Scene, duty: Duty, dataset: xr.Dataset) -> None:
     (_, first), (_, last) = rubbing(scene, duty, (0.0, 72.0))
     for name in ("friction_coefficient", "tribofilm_1", "wear_depth_2", "roughness_2"):
@@ -176,6 +192,59 @@ def test_rubbing_is_that_of_a_run_bit_for_bit(scene: Scene, duty: Duty, dataset:
 
 def test_rubbing_stops_between_the_steps_of_a_run(scene: Scene, duty: Duty) -> None:
     assert [state.time for state, _ in rubbing(scene, duty, (10.0, 35.0))] == approx([10.0, 35.0], rel=1e-12)
+
+
+def test_several_processes_find_the_same_to_the_bit(
+    scene: Scene, duty: Duty, plan: Plan, swept: xr.Dataset, capfd: pytest.CaptureFixture[str]
+) -> None:
+    shown: list[tuple[str, int]] = []
+    curves = Curves(plan)
+    measure(scene, duty, curves, lambda *told: shown.append(told), 2)
+    xr.testing.assert_identical(curves.dataset(scene, duty), swept)
+    assert [count for _, count in shown] == sorted(count for _, count in shown)
+    assert "rubbed 1 min" in dict(shown)
+    assert {f"{time} min, {speed} m/s" for time in ("0", "1.2") for speed in ("8", "0.253", "0.008")} <= {*dict(shown)}
+    assert shown[-1] == ("done", 6)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_point_that_has_no_solution_in_another_process_is_the_same(
+    light: Scene, caplog: pytest.LogCaptureFixture
+) -> None:
+    duty = Duty.of_scene(light)
+    plan = Plan.of(duty, [0.0, 30.0], 40.0, 0.01, 2)
+    alone, shared = (curves_of(light, duty, plan, processes).dataset(light, duty) for processes in (1, 2))
+    xr.testing.assert_identical(shared, alone)
+    first, second = shared.attrs["failures"].splitlines()
+    assert first.startswith("After 0 min at 40 m/s: No solution was found for an oil film of about")
+    assert second.startswith("After 0.5 min at 40 m/s: ")
+    assert caplog.text.count(first) == caplog.text.count(second) == 2
+
+
+def test_points_of_a_process_that_is_lost_are_solved_in_this_one(
+    scene: Scene, duty: Duty, plan: Plan, swept: xr.Dataset, caplog: pytest.LogCaptureFixture
+) -> None:
+    def kill(stage: str, count: int) -> None:
+        for child in active_children() if count == 1 else ():
+            child.kill()
+
+    curves = Curves(plan)
+    measure(scene, duty, curves, kill, 2)
+    xr.testing.assert_identical(curves.dataset(scene, duty), swept)
+    assert caplog.messages == [
+        "A worker process has ended before its task: killed, or out of memory. With less memory use fewer --processes. "
+        "What is left is solved in one process."
+    ]
+
+
+@pytest.mark.parametrize(
+    ("asked", "level", "given"), [(None, "deterministic", 7), (None, "regression", 1), (3, "regression", 3)]
+)
+def test_by_default_each_core_has_a_process_where_contacts_are_solved(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch, asked: int | None, level: str, given: int
+) -> None:
+    monkeypatch.setattr(workers, "cores", lambda: 7)
+    assert command._processes(asked, scene.at_level(level)) == given
 
 
 @pytest.mark.long
@@ -315,17 +384,22 @@ def test_an_interrupt_keeps_what_was_measured(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
 ) -> None:
     refusing(monkeypatch, KeyboardInterrupt(), after=3)
-    command = ["stribeck", "mtm_zddp", *coarse, *DRY, "--times", "0,1", "--points", "2", "--out", str(tmp_path)]
-    assert main(command) == 130
+    options = ["--times", "0,1", "--points", "2", "--out", str(tmp_path)]
+    assert main(["stribeck", "mtm_zddp", *coarse, *DRY, *options]) == 130
     assert f"tribofmu: Interrupted. The 3 points measured so far are in '{tmp_path}" in capsys.readouterr().err
     dataset = results.read(tmp_path / "stribeck.nc")
-    assert dataset["valid"].values.tolist() == [[True, True], [True, False]]
-    assert np.isfinite(dataset["friction_coefficient"].values).tolist() == [[True, True], [True, False]]
+    assert dataset["valid"].values.tolist() == [[True, True], [False, True]]
+    assert np.isfinite(dataset["friction_coefficient"].values).tolist() == [[True, True], [False, True]]
     assert dataset.attrs["failures"] == "1 points were not reached."
 
 
+@pytest.mark.parametrize("processes", ["1", "2"])
 def test_rubbing_that_cannot_go_on_keeps_what_was_measured(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    coarse: list[str],
+    processes: str,
 ) -> None:
     def stuck(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
         if dt > 0.0:
@@ -333,8 +407,8 @@ def test_rubbing_that_cannot_go_on_keeps_what_was_measured(
         return advance(scene, op, state, dt)
 
     monkeypatch.setattr(stribeck, "advance", stuck)
-    command = ["stribeck", "mtm_zddp", *coarse, *DRY, "--times", "0,1", "--points", "2", "--out", str(tmp_path)]
-    assert main(command) == 2
+    options = ["--times", "0,1", "--points", "2", "--out", str(tmp_path), "--processes", processes]
+    assert main(["stribeck", "mtm_zddp", *coarse, *DRY, *options]) == 2
     err = capsys.readouterr().err
     assert "tribofmu: No solution was found. Use a finer grid. The 2 points measured so far are in" in err
     dataset = results.read(tmp_path / "stribeck.nc")
@@ -358,7 +432,7 @@ def test_a_point_without_a_solution_gives_code_1(
     refusing(monkeypatch, ConvergenceError("None was found. Refine."), after=1)
     options = ["--times", "0", "--points", "2", "--out", str(tmp_path)]
     assert main(["stribeck", "mtm_zddp", *coarse, *DRY, *options]) == 1
-    assert "After 0 min at 0.003 m/s: None was found. Refine." in capsys.readouterr().out
+    assert "After 0 min at 10 m/s: None was found. Refine." in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

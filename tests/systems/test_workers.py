@@ -7,7 +7,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Executor, Future, wait
 from contextlib import ExitStack
 from pathlib import Path
@@ -112,12 +112,31 @@ def test_a_process_that_is_killed_ends_the_command_with_a_sentence() -> None:
         list(done_by(pool, os._exit, iter([(1,)])))
 
 
+def test_what_has_come_is_given_before_the_next_arguments_take_a_while() -> None:
+    def arguments() -> Iterator[tuple[int] | None]:
+        yield from ((-1,), (-2,), (-3,), None, None, (-4,))
+
+    begin, executor = time.monotonic(), Scripted(["result", "never", "never", "result"], 9)
+    results = done_by(Workers(executor, 1, (), lambda loss: "Lost."), abs, arguments(), 9)
+    assert next(results) == 1 and executor.asked == 3
+    assert next(results) == 4
+    assert time.monotonic() - begin < module._LOOK
+    assert list(done_by(Workers(), abs, arguments())) == [1, 2, 3, 4]
+
+
 OF_POOL = """
 import time
 from system_models.run.workers import done_by, workers
 with workers(2, None) as pool:
-    list(done_by(pool, time.sleep, iter([(0.01,), (600.0,)])))
+    for _ in done_by(pool, time.sleep, iter([(0.01,), (600.0,)])):
+        {then}
 """
+
+
+def test_a_command_that_is_interrupted_waits_for_no_task() -> None:
+    """Where the interrupt is for it alone: a terminal gives it to the workers, too."""
+    program = OF_POOL.format(then="raise KeyboardInterrupt")
+    assert subprocess.run([sys.executable, "-c", program], timeout=60.0, stderr=subprocess.DEVNULL).returncode
 
 
 def children(process: int) -> list[int]:
@@ -134,7 +153,7 @@ def until(true: Callable[[], bool], seconds: float = 60.0) -> None:
 @pytest.mark.long
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for children in /proc")
 def test_workers_end_with_a_command_that_is_killed() -> None:
-    with subprocess.Popen([sys.executable, "-c", OF_POOL]) as command:
+    with subprocess.Popen([sys.executable, "-c", OF_POOL.format(then="pass")]) as command:
         until(lambda: len(children(command.pid)) == 3)  # of them one keeps count of resources
         time.sleep(2.0)  # the workers have begun
         left = children(command.pid)
