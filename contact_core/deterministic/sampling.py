@@ -26,7 +26,7 @@ from .transient import dry_instant, next_instant, rolled
 # way of the oil after a new start before the march is sampled, in halves of the contact's length: in near rolling; in
 # proportion more where the faster body runs ahead of the oil
 _PASSAGE = 3.0
-_MOST_SETTLING = 400  # transient steps
+_MOST_SETTLING = 400  # nodes of the way of what leads, the oil or the faster body
 _AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
 _ITERATIONS = 300  # at most, of one transient step; a warm one needs about 16, after a jump up to 200
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
