@@ -58,7 +58,7 @@ def march(scene: Scene, state: ContactState, duty: Duty, times: Sequence[float],
     duty : the operating point at a time [s].
     times : increasing [s]; between two of them, rough bodies make as many instants as keep them from moving on by more
         than a node.
-    order : of the squeeze term in time.
+    order : of the squeeze term in time; 2 where no roughness moves, since oil between moving asperities would be lost.
 
     Raises
     ------
@@ -84,6 +84,8 @@ def march(scene: Scene, state: ContactState, duty: Duty, times: Sequence[float],
         count = _instants(bound(early), bound(late), late - early)
         for k in range(1, count + 1):
             before, case = case, bound(early + (late - early) * k / count)
+            if order == 2 and case.rough_speed > 0.0:
+                raise OperatingPointError("order = 2 is for smooth bodies and roughness at rest. Use order = 1.")
             dt = (late - early) / count
             steps = [0.5 * (then + now) * dt for then, now in zip(before.speeds, case.speeds, strict=True)]
             state, fields = follow(case, state, dt, steps, order=order)

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FilmTooWideError, OperatingPointError
-from ..film import Deterministic
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
 from ..surfaces.patches import facing_films, on_patches, patch_nodes
@@ -75,8 +74,9 @@ def next_instant(case: Case, state: ContactState, steps: Sequence[float], transi
     Where the oil is carried over, the nodes of the contact move on with it. The ways in `transient` are filled in here.
     """
     spacing, columns, rougher = case.scene.film.spacing, case.scene.film.points - 1, case.scene.rougher
-    way = case.op.entrainment_speed * transient.dt if transient.order == 1 and _is_carried(case) else 0.0
+    way = case.op.entrainment_speed * transient.dt if transient.order == 1 and case.carries_oil else 0.0
     oil = round((state.window + way) / spacing)  # nodes that it moves along; by the rest the nodes move with it
+    oil = oil if oil * way > 0.0 else 0  # a node half way to the next stays where rounding alone would move it
     window = state.window + way - oil * spacing
     window = 0.0 if abs(window) < _ON_NODE * spacing else window  # rounding moves no node
     before = patch_nodes(case.scene, state.bodies[rougher], state.window)
@@ -86,12 +86,6 @@ def next_instant(case: Case, state: ContactState, steps: Sequence[float], transi
     ways = replace(transient, moved=moved, shifted=shifted, rolled=oil)
     fields = solve_instant(case, state, ways)
     return _after(case.scene, state, fields), fields
-
-
-def _is_carried(case: Case) -> bool:
-    """Return True if the oil between the bodies moves on as it is; before a meniscus there is none."""
-    film = case.scene.film
-    return isinstance(film, Deterministic) and film.flux == "fitted" and case.scene.lubricant.supply.inlet is None
 
 
 def dry_instant(case: Case, state: ContactState, steps: Sequence[float]) -> Found:

@@ -1,5 +1,6 @@
 """A moving film over a time step: what lies between asperities moves along unchanged, and nothing hangs on the step."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -7,9 +8,10 @@ import pytest
 from comparison import approx
 from wavy_contact import problem
 
-from contact_core import Scene, advance, initial_state
+from contact_core import Scene, advance, initial_state, march
 from contact_core.deterministic.instant import Transient, instant_of, solve_instant
 from contact_core.deterministic.transient import begin, next_instant
+from contact_core.errors import OperatingPointError
 from contact_core.film.routes import solve_film
 from contact_core.film.slow_film import SlowFilm, slow_film
 from contact_core.kernels.mixed.stopping_rule import allowed_imbalance
@@ -159,3 +161,39 @@ def test_a_starved_film_keeps_its_oil_in_a_march(supply):
     middle = steady.gap.shape[0] // 2
     assert fields.converged
     assert fields.gap[middle, middle] == approx(steady.gap[middle, middle], rel=0.3)  # it swings where oil fills up
+
+
+def test_a_node_half_way_to_the_next_stays_there_at_rest():
+    """Rounding puts a window just beyond half a node: bodies at rest move no oil, and their film goes on."""
+    wave = dict.fromkeys(("surface_1.correlation_length", "surface_2.correlation_length"), "20 um")
+    more = {"film.points": "33", "film.domain": "0.55 mm", "control.inputs": "transient"}
+    scene = Scene.from_toml("azam_case_a", more | wave)
+    op = scene.operation.point
+    state, _ = advance(scene, op, initial_state(scene), 0.0)
+    spacing = scene.film.spacing
+    for window in (-0.5000000000000001, 0.5000000000000001):
+        at = replace(state, window=window * spacing)
+        after, out = advance(scene, replace(op, speed_1=0.0, speed_2=0.0), at, 1e-4)
+        assert after.window == at.window
+        assert math.isfinite(out.h_c)
+
+
+def test_a_meniscus_beyond_the_grid_changes_nothing_and_one_on_it_is_in_the_error():
+    """Before a meniscus the oil between moving asperities is not carried along: the solids' share is in doubt."""
+    supply = {"lubricant.supply.model": "meniscus"}
+    outs, halves = [], []
+    for distance in (None, "1 m", "0.2 mm"):
+        more = supply | {"lubricant.supply.distance": distance} if distance else {}
+        scene = Scene.from_toml("azam_case_a", {"film.points": "65"} | more)
+        outs.append(advance(scene, scene.operation.point, initial_state(scene), 0.0)[1])
+        halves.append(outs[-1].error_load_ratio)
+    assert outs[1].contact_load_ratio == outs[0].contact_load_ratio
+    assert abs(outs[2].contact_load_ratio - outs[0].contact_load_ratio) < halves[2]
+    assert halves[2] > 0.5
+
+
+def test_march_refuses_the_second_order_where_roughness_moves():
+    scene = Scene.from_toml("azam_case_a", {"film.points": "65"})
+    state, _ = advance(scene, scene.operation.point, initial_state(scene), 0.0)
+    with pytest.raises(OperatingPointError, match="order = 1"):
+        next(march(scene, state, lambda time: scene.operation.point, (0.0, 1e-5), order=2))
