@@ -18,6 +18,7 @@ from ..film.inlet_loss import NEGLIGIBLE, PEAK
 from ..film.lengths import inlet_length
 from ..scene import Case
 from ..state import Error, Outputs
+from .instant import carries_oil
 from .rolling import beyond_grid
 
 # of an output over roughness: what stricter iterations and shorter steps still change, and what a solution has at most
@@ -85,7 +86,7 @@ def _step_error(case: Case, load_ratio: float) -> float:
     rms = math.hypot(case.scene.surface_1.rms, case.scene.surface_2.rms)
     if rms == 0.0 or not case.entrained or case.scene.control.driver == "dry":
         return 0.0
-    if case.rough_speed > 0.0 and not case.carries_oil and case.scene.lubricant.supply.inlet is not None:
+    if case.rough_speed > 0.0 and not carries_oil(case) and case.scene.lubricant.supply.inlet is not None:
         return _NOT_CARRIED
     soft = case.microroughness.rms if case.microroughness is not None else 0.0
     longer = _PER_NODE * _longer(case)

@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import OperatingPointError
-from ..film import Deterministic
 from ..film.inlet_loss import lost_film
 from ..film.instant import Grid
 from ..laws.asperity_layer import AsperityLayer
@@ -178,14 +177,6 @@ class Case:
     def rough_speed(self) -> float:
         """Speed [m/s] of the faster rough body, 0 of smooth ones."""
         return max((abs(side.speed) for side in self.sides if not side.surface.smooth), default=0.0)
-
-    @property
-    def carries_oil(self) -> bool:
-        """True if the oil between the bodies moves on as it is; before a meniscus on the grid there is none."""
-        film, inlet = self.scene.film, self.scene.lubricant.supply.inlet
-        if not isinstance(film, Deterministic) or film.flux != "fitted":
-            return False
-        return inlet is None or inlet > 0.5 * film.domain + film.spacing
 
     @property
     def smooth_contact(self) -> SmoothContact | SmoothLine:

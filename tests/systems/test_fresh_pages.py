@@ -26,10 +26,12 @@ OWED = {
         "film/moving",
         "film/peers",
         "film/tolerance",
+        "film/two_hours",
     ),
     *("fmu/endurance", "fmu/overhead", "friction/laws_cost", "friction/traction", "machines/tolerance"),
+    *("friction/published_traction", "machines/rolling"),
     *("regression/cost", "regression/curves", "regression/held_back", "regression/shapes", "speed_error"),
-    *("surfaces/evolution", "surfaces/stribeck", "surfaces/tribofilm"),
+    *("surfaces/asperity_load_share", "surfaces/evolution", "surfaces/stribeck", "surfaces/tribofilm"),
     "thesis/validation",
 }
 
