@@ -174,9 +174,9 @@ def line_factors(  # type: ignore[no-untyped-def]
 ):  # fmt: skip
     """Compute the linearised equation of the nodes outside the stiff zone, [ny, nx], and its factors along lines.
 
-    At node i: lower x_(i-1) + x_i / pivot' + upper x_(i+1) = rhs + south x_(j-1) + north x_(j+1) - far, pivot and ratio
-    those of the elimination from left to right. flows: as in `correct_gap`; far: what nodes two and three away lift,
-    rho times `far_lift`. over_oil, lack: from `asperities.share_out`, of no meaning where depth is 0. alone: a row that
+    At node i: lower x_(i-1) + diagonal x_i + upper x_(i+1) = rhs + south x_(j-1) + north x_(j+1) - rho `_far_lift`;
+    eliminated from left to right, pivot is one over what the diagonal becomes, ratio is upper times that. flows: as in
+    `correct_gap`. over_oil, lack: from `asperities.share_out`, of no meaning where depth is 0. alone: a row that
     is its own neighbour.
     """
     ny, nx = p.shape
