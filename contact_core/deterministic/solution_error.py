@@ -27,9 +27,7 @@ _STOPPED, _UNCONVERGED = 0.025, 0.3
 # error of W_c by the time step over a hard floor; rms of asperities below the grid over that of the surfaces, by which
 # it falls to 1 / e: they soften how contacts begin and end
 _HARD, _SOFTENED = 0.2, 0.05
-# what each node more of the oil's way per instant changes, of W_c and, relative, of the film; and the error of W_c
-# where the oil between moving asperities is not carried along, as before a meniscus
-_PER_NODE, _FILM_PER_NODE, _NOT_CARRIED = 0.02, 0.05, 0.5
+_NOT_CARRIED = 0.5  # error of W_c where the oil between moving asperities is not carried along, as before a meniscus
 _ON_SOLIDS, _AT_EDGE = 0.5, 0.25  # of rolling resistance: part where solids carry all; of its share beyond the grid
 _RELATIVE: dict[str, Callable[[float, float, float], float]] = {
     "h_c": film_error,
@@ -59,7 +57,7 @@ def with_errors_of_the_solution(case: Case, out: Outputs, found: Mapping[str, Er
     errors = {}
     for name, error in found.items():
         grid, inlet = _half_width(case, out, name, rough, film), _by_inlet(case, out, name, lost)
-        early = math.hypot(stopped * abs(getattr(out, name)), _by_step(out, name, share), _of_film(case, out, name))
+        early = math.hypot(stopped * abs(getattr(out, name)), _by_step(out, name, share))
         others = error._replace(grid=grid, iteration=early)
         errors[name] = others._replace(inlet=inlet) if inlet > NEGLIGIBLE * others.together else others
     return errors
@@ -89,18 +87,7 @@ def _step_error(case: Case, load_ratio: float) -> float:
     if case.rough_speed > 0.0 and not carries_oil(case) and case.scene.lubricant.supply.inlet is not None:
         return _NOT_CARRIED
     soft = case.microroughness.rms if case.microroughness is not None else 0.0
-    longer = _PER_NODE * _longer(case)
-    return min(math.hypot(_HARD * math.exp(-soft / (_SOFTENED * rms)), longer), min(load_ratio, 1.0))
-
-
-def _longer(case: Case) -> float:
-    """Return by how many nodes the way of the oil per instant is longer than one."""
-    return max(case.scene.control.nodes_per_instant - 1.0, 0.0)
-
-
-def _of_film(case: Case, out: Outputs, name: str) -> float:
-    """Return the half width of a film thickness by steps longer than a node."""
-    return _FILM_PER_NODE * _longer(case) * abs(getattr(out, name)) if name in ("h_c", "lambda_ratio") else 0.0
+    return min(_HARD * math.exp(-soft / (_SOFTENED * rms)), min(load_ratio, 1.0))
 
 
 def _by_step(out: Outputs, name: str, share: float) -> float:

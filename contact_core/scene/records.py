@@ -123,7 +123,7 @@ class Control:
         default=0,
     )
     nodes_per_instant: float = parameter(
-        "", "way of the oil from instant to instant of a mixed block, in nodes", above=0.0, most=2.0, default=1.0
+        "", "way of the oil from instant to instant of a mixed block, in nodes", above=0.0, most=1.0, default=1.0
     )
     longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=120.0)
     inputs: str = parameter(

@@ -29,8 +29,8 @@ Mask = NDArray[np.bool_]
 
 _DEPTH = 3  # of Anderson's memory: more does not help where contacts change
 _SWEEPS_UNDER_CONTACTS = 6
-# part of their correction that nodes in the stiff zone take, and in a march with more sweeps than _SWEEPS: 0.4 takes a
-# third more iterations there
+# part of their correction that nodes in the stiff zone take, and in a march with more sweeps than _SWEEPS, where the
+# larger one takes more iterations
 _STIFF_STEP, _FINE_STEP, _SWEEPS = 0.4, 0.3, 3
 # nodes per unit of length, from which on an iteration of a march takes two more sweeps of the lines, and two more at
 # each multiple: a sweep reaches a few nodes, and oil flows as far as on a coarser grid

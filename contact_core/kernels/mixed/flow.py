@@ -115,7 +115,7 @@ def _at(weights, n_0, n_1, n_2, n_3, bounds):  # type: ignore[no-untyped-def]
 def _along_row(g, m, conductance, width):  # type: ignore[no-untyped-def]
     """Compute 1 / I_3 and the mean of m / h^3 over I_3 of the nx - 1 faces of a row, from gaps g and masses m [nx + 2].
 
-    These go on by a node at either end. The body stands in the loop, which runs in vectors then, three times as fast.
+    These go on by a node at either end. The body stands in the loop, which runs in vectors then.
     """
     for i in range(g.size - 3):
         g_0, g_1, g_2, g_3 = g[i], g[i + 1], g[i + 2], g[i + 3]
