@@ -169,14 +169,6 @@ def solve_instant(
     )
 
 
-def carries_oil(case: Case) -> bool:
-    """Return True if a march carries the oil between the bodies along as it is; before a meniscus there is none."""
-    film, inlet = case.scene.film, case.scene.lubricant.supply.inlet
-    if not isinstance(film, Deterministic) or film.flux != "fitted":
-        return False
-    return inlet is None or inlet > 0.5 * film.domain + film.spacing
-
-
 def _pressed(case: Case, faced: FacingSurfaces) -> Instant:
     """Return the instant of facing surfaces, with the pressures at which they yield and by how much they give way."""
     scene, (film_1, film_2) = case.scene, faced.tribofilms

@@ -161,7 +161,7 @@ def likeness(case: Case, count: int, driver: str) -> float:
     """
     if driver == "dry" or not case.loaded or count < 2:
         return 0.0
-    step = case.scene.control.nodes_per_instant * case.scene.film.spacing / (_ALIKE * case.hertz.a)
+    step = abs(case.op.entrainment_speed) * instant_time(case) / (_ALIKE * case.hertz.a)
     apart = np.arange(1, count)
     return float(_ALIKE_AT_ONCE * ((count - apart) * np.maximum(1.0 - apart * step, 0.0)).sum() / (count - apart).sum())
 

@@ -18,7 +18,6 @@ from ..film.inlet_loss import NEGLIGIBLE, PEAK
 from ..film.lengths import inlet_length
 from ..scene import Case
 from ..state import Error, Outputs
-from .instant import carries_oil
 from .rolling import beyond_grid
 
 # of an output over roughness: what stricter iterations and shorter steps still change, and what a solution has at most
@@ -27,7 +26,6 @@ _STOPPED, _UNCONVERGED = 0.025, 0.3
 # error of W_c by the time step over a hard floor; rms of asperities below the grid over that of the surfaces, by which
 # it falls to 1 / e: they soften how contacts begin and end
 _HARD, _SOFTENED = 0.2, 0.05
-_NOT_CARRIED = 0.5  # error of W_c where the oil between moving asperities is not carried along, as before a meniscus
 _ON_SOLIDS, _AT_EDGE = 0.5, 0.25  # of rolling resistance: part where solids carry all; of its share beyond the grid
 _RELATIVE: dict[str, Callable[[float, float, float], float]] = {
     "h_c": film_error,
@@ -84,8 +82,6 @@ def _step_error(case: Case, load_ratio: float) -> float:
     rms = math.hypot(case.scene.surface_1.rms, case.scene.surface_2.rms)
     if rms == 0.0 or not case.entrained or case.scene.control.driver == "dry":
         return 0.0
-    if case.rough_speed > 0.0 and not carries_oil(case) and case.scene.lubricant.supply.inlet is not None:
-        return _NOT_CARRIED
     soft = case.microroughness.rms if case.microroughness is not None else 0.0
     return min(_HARD * math.exp(-soft / (_SOFTENED * rms)), min(load_ratio, 1.0))
 

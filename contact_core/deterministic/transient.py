@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FilmTooWideError, OperatingPointError
+from ..film import Deterministic
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
 from ..surfaces.patches import facing_films, on_patches, patch_nodes
-from .instant import ContactFields, Transient, carries_oil, solve, solve_instant
+from .instant import ContactFields, Transient, solve, solve_instant
 
 Array = NDArray[np.float64]
 Found = tuple[ContactState, ContactFields]
@@ -73,8 +74,10 @@ def next_instant(case: Case, state: ContactState, steps: Sequence[float], transi
 
     Where the oil is carried over, the nodes of the contact move on with it. The ways in `transient` are filled in here.
     """
-    spacing, columns, rougher = case.scene.film.spacing, case.scene.film.points - 1, case.scene.rougher
-    way = case.op.entrainment_speed * transient.dt if transient.order == 1 and carries_oil(case) else 0.0
+    level, rougher = case.scene.film, case.scene.rougher
+    spacing, columns = level.spacing, level.points - 1
+    carried = transient.order == 1 and isinstance(level, Deterministic) and level.flux == "fitted"
+    way = case.op.entrainment_speed * transient.dt if carried else 0.0
     oil = round((state.window + way) / spacing)  # nodes that it moves along; by the rest the nodes move with it
     oil = oil if oil * way > 0.0 else 0  # a node half way to the next stays where rounding alone would move it
     window = state.window + way - oil * spacing

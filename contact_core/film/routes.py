@@ -239,7 +239,7 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     """Return the film of an instant, entrained along +x or not at all."""
     grid, settings = scaled.grid, scaled.settings
     regime = next(row for row in REGIMES if row.holds(scaled))
-    by_flux = scaled.now.conserving or scaled.now.meniscus is not None
+    by_flux = scaled.now.conserving or scaled.first > 0
     algorithms = regime.by_flux if by_flux and regime.by_flux else regime.algorithms
     by_march = (settings.fitted or scaled.fade > 0.0) and not step
     if by_march and any(method == "hybrid" for method, _ in algorithms):  # where solids carry much

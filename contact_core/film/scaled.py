@@ -216,7 +216,7 @@ class Scaled:
             lumped=self.settings.lumped,
             conserving=conserving,
             supply=now.supply / self.h_unit if conserving and now.supply is not None else None,
-            first=self._first,
+            first=self.first,
             wrapped=self.grid.periodic,
             fitted=self.settings.fitted,
             slow_mass=None if self.slow is None else images(self.slow.now / self.h_unit),
@@ -226,9 +226,9 @@ class Scaled:
         )
 
     def _empty(self, start: FilmState) -> NDArray[np.bool_]:
-        """Return the nodes whose oil had no pressure before; a flooded edge is full."""
+        """Return the nodes whose oil had no pressure before; a flooded edge and all before a meniscus are full."""
         empty = start.fluid <= 0.0
-        empty[:, 0] = self.now.supply is not None
+        empty[:, : max(self.first, 1)] = self.now.supply is not None
         return empty
 
     def _with_images(self, field: NDArray[Any]) -> NDArray[Any]:
@@ -249,7 +249,7 @@ class Scaled:
         return replace(found, iterate=iterate, gap=found.gap[own].copy(), mass=found.mass[own].copy())
 
     @cached_property
-    def _first(self) -> int:
+    def first(self) -> int:
         """First column in which oil has pressure: the one after the node nearest to the inlet meniscus."""
         meniscus = self.now.meniscus
         if meniscus is None or self.grid.x[0] > -meniscus:
@@ -263,7 +263,7 @@ class Scaled:
 
     def far_field(self, film: float) -> tuple[Array, Array]:
         """Return `far_field` for bodies with that film [m]; zeros and ones if the field does not matter."""
-        starved = self._first > 0 or self.now.supply is not None
+        starved = self.first > 0 or self.now.supply is not None
         if self.is_light and self.now.shape.has_far_field and not starved:
             by_wedge = (3.0 + 2.0 * self.curvature) / (2.0 + 2.0 * self.curvature)  # see `far_field`
             closing = by_wedge * self.closing * self.now.shape.radius_x / (self.speed * self.size)

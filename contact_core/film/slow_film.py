@@ -67,6 +67,7 @@ def slow_film(now: Instant, grid: Grid, shifted: float, settings: Settings, solv
         spacing=grid.spacing,
         repeats=grid.repeats,
         settings=replace(settings, iterations=_ITERATIONS, patient=False),
+        meniscus=now.meniscus,
     )
     return SlowFilm(*(_on_nodes(smooth, round(part - back, _DIGITS), solve) for back in (shifted, 0.0)))
 
@@ -92,6 +93,7 @@ class _Smooth:
     spacing: float
     repeats: float
     settings: Settings
+    meniscus: float | None
 
     @property
     def grid(self) -> Grid:
@@ -131,6 +133,7 @@ def _rest(smooth: _Smooth, solve: Solve) -> Array:
         heights=np.zeros(grid.shape),
         limit=np.full(grid.shape, smooth.hardness),
         hardness=smooth.hardness,
+        meniscus=smooth.meniscus,
     )
     with suppress(ConvergenceError):
         found = solve(now, grid, smooth.settings)

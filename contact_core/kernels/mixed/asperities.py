@@ -47,19 +47,20 @@ def missing(p, carried, solid):  # type: ignore[no-untyped-def]
 
 @jit
 def share_out(  # type: ignore[no-untyped-def]
-    p, h, solid, ex, ey, floor, stress, depth, softness, patch, limit, ruled, over_oil, lack
+    p, pressing, solid, ex, ey, depth, softness, patch, limit, ruled, over_oil, lack
 ):
     """Update the nodes that asperities rule; compute how the fluid pressure rises with p, and `missing`, [ny, nx].
 
     Asperities rule a node where they carry most and are stiff against the half space, and oil flows freely: there a
     small error of the gap is a large one of the fluid pressure p - s(h). As on solid contacts, the flow gives the fluid
-    pressure, p - f the gap. softness: opening of a gap by a unit pressure on it; patch: by that on its eight
-    neighbours, too; limit: mobility of the stiff zone. over_oil: d(p - s)/dp of a node.
+    pressure, p - f the gap. pressing: what asperities carry at the gap. softness: opening of a gap by a unit pressure
+    on it; patch: by that on its eight neighbours, too; limit: mobility of the stiff zone. over_oil: d(p - s)/dp of a
+    node.
     """
     ny, nx = p.shape
     for j in range(ny):
         for i in range(nx):
-            carried = carried_at(h[j, i], floor, stress, depth)
+            carried = pressing[j, i]
             rise = carried / depth
             over_oil[j, i] = 1.0 + rise * softness
             lack[j, i] = missing(p[j, i], carried, solid[j, i])

@@ -89,6 +89,9 @@ class Carried:
     def carry(self, f: Array, flow: Flow, mass: Array) -> None:
         """Compute mass and mass flow of every node from a fluid pressure; `full` holds the full masses."""
         q = self.problem
+        if q.slow_mass is not None:  # there are no cavities where the oil moves along
+            mass[:], self.flux[:] = self.full, flow.carried
+            return
         inlet = (q.conserving, self.supply, self.first)
         through = (flow.carried, q.mass_old, *flow.faces)
         carry(f, self.full, *through, *q.terms, *inlet, mass, self.flux, self.filling)

@@ -6,7 +6,7 @@ Equation, arrays and units are those of `reynolds`.
 import numpy as np
 
 from ..compiled import jit
-from .asperities import REACH, carried_at, rest_gap
+from .asperities import REACH, rest_gap
 from .edge import wrap
 from .reynolds import inflow, returned, transport
 
@@ -20,6 +20,7 @@ def correct_gap(  # type: ignore[no-untyped-def]
     cap,
     solid,
     h,
+    pressing,
     mass,
     mass_old,
     ex,
@@ -48,7 +49,8 @@ def correct_gap(  # type: ignore[no-untyped-def]
 
     r: net inflow of mass per area, zero on solid contacts and on the edge. stiff: where elasticity rules, solid
     contacts and fluid nodes whose faces hardly pass any pressure flow. dh: on solid contacts, to the floor; zero
-    off the stiff zone. `patch`: opening of a gap by a unit pressure on it and its eight neighbours.
+    off the stiff zone. `pressing`: what asperities carry at the gap h. `patch`: opening of a gap by a unit pressure
+    on it and its eight neighbours.
 
     Returns the first row, the row after the last, first column and column after the last of dh, and how many nodes are
     stiff and how many of them differ from `stiff_before`. sums [7]: of |r| f, m f and f over nodes that fluid carries
@@ -85,9 +87,9 @@ def correct_gap(  # type: ignore[no-untyped-def]
             if touches:
                 is_stiff = True
                 alone = here - f[j, i]
-                pressing = carried_at(own, floor, stress, depth)
-                if pressing > alone:  # the asperities press the bodies apart
-                    change = (pressing - alone) / (per_patch + pressing * per_depth) + max(floor - own, 0.0)
+                if pressing[j, i] > alone:  # the asperities press the bodies apart
+                    change = (pressing[j, i] - alone) / (per_patch + pressing[j, i] * per_depth)
+                    change += max(floor - own, 0.0)
                 else:
                     change = rest_gap(alone, floor, stress, depth) - own
                     change /= 1.0 + depth * per_patch / max(alone, 1e-300)
@@ -119,7 +121,7 @@ def correct_gap(  # type: ignore[no-untyped-def]
                 solids += here - pressed
                 if is_stiff:
                     faces = (west + east + south + north) * per_dx2
-                    give = per_patch + carried_at(own, floor, stress, depth) * per_depth
+                    give = per_patch + pressing[j, i] * per_depth
                     upstream = a1 * before + a2 * before_2 if flows else 0.0
                     own_lift = a0 if flows else per_dt
                     change = (value * gap - m * upstream) / (m * own_lift + faces * give * gap)

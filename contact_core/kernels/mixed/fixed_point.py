@@ -151,7 +151,7 @@ class Iteration:
         self.x = np.append(start.pressure.ravel(), self.weight * start.rigid)
         self.p = self.x[:-1].reshape(shape)
         self.f, self.solid = start.fluid.copy(), start.solid.copy()
-        self.h, self.mass, self.r, self.dh, self.dp, self.unit = (np.zeros(shape) for _ in range(6))
+        self.h, self.pressing, self.mass, self.r, self.dh, self.dp, self.unit = (np.zeros(shape) for _ in range(7))
         self.flow = Flow.of(problem)
         self.marching = problem.slow_mass is not None
         if self.marching:
@@ -213,7 +213,8 @@ class Iteration:
             cavities.close_inlet(p, f, solid, q.first)
         bodies = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
         trace = _TRACE if q.conserving else 0.0
-        reynolds.film_pass(p, f, solid, *bodies, *oil, self.h, full, *flow.nodes, q.lumped, self.ruled, trace)
+        film = (self.h, self.pressing, full, *flow.nodes)
+        reynolds.film_pass(p, f, solid, *bodies, *oil, *film, q.lumped, self.ruled, trace)
         flow.measure()
         self._carry(full)
         balance = (self.h, self.mass, q.mass_old, *flow.faces, flux)
@@ -223,7 +224,7 @@ class Iteration:
                 self._carry(full)
         scales = (*q.layer, *q.terms, q.compliance, self.patch)
         out = (self.r, self.stiff, self.dh, self.sums, not self.marching)
-        state = (p, f, q.cap, solid, *balance)
+        state = (p, f, q.cap, solid, self.h, self.pressing, *balance[1:])
         self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, filling, first)
         if isinstance(self.half_space, GivingHalfSpace):  # the node itself gives way by a part of the change
             self.dh /= 1.0 + self.half_space.give.slope_at(p) / self.patch
@@ -259,7 +260,7 @@ class Iteration:
         filling, first = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
         if self.ruled is not None:
             softness = (near[0, 0], self.patch, q.compliance * q.spacing**2)
-            share_out(p, self.h, self.solid, *faces, *q.layer, *softness, self.ruled, *layer)
+            share_out(p, self.pressing, self.solid, *faces, q.depth, *softness, self.ruled, *layer)
         film = (p, self.solid, self.stiff, self.h, self.mass, *faces, self.r, q.edge, q.floor, q.depth)
         scales = (*q.terms, near, self.patch_wide, q.lumped, flows)
         out = (self.free, *self.lines)
@@ -305,7 +306,7 @@ class Iteration:
         has no pressure holds what its balance leaves it.
         """
         q, missing, nowhere = self.problem, np.zeros_like(self.r), np.zeros_like(self.solid)
-        if q.lumped or (self.carried is not None and not q.conserving):
+        if q.lumped or (self.carried is not None and not (q.conserving or self.marching)):
             return np.where(self.solid | (self.p <= 0.0), 0.0, self.r)
         balance = (self.mass, q.mass_old, *self.flow.faces)
         if self.carried is not None:

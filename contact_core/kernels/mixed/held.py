@@ -167,14 +167,14 @@ class _Held(Iteration):
         q, p, flow = self.problem, self.p, self.flow
         bodies = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
         self.solid[self.held] = False
-        film = (self.h, self.mass, *flow.nodes)
+        film = (self.h, self.pressing, self.mass, *flow.nodes)
         reynolds.film_pass(p, self.f, self.solid, *bodies, *q.layer, *q.tables, *film, False, None, 0.0)
         flow.measure()
 
     def _correct_gap(self) -> None:
         q, flow = self.problem, self.flow
         scales = (*q.layer, *q.terms, q.compliance, self.patch)
-        state = (self.p, self.f, q.cap, self.solid, self.h, self.mass, q.mass_old, *flow.through)
+        state = (self.p, self.f, q.cap, self.solid, self.h, self.pressing, self.mass, q.mass_old, *flow.through)
         out = (self.r, self.stiff, self.dh, self.sums)
         self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, True, None, 1)
         if q.wrapped:

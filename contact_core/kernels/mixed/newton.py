@@ -134,7 +134,7 @@ class _Film:
         self.solid, self.rigid = start.solid.copy(), start.rigid
         set_edge(self.p, problem.edge, problem.wrapped)
         shape = self.p.shape
-        self.h, self.mass, self.r, self.scale = (np.zeros(shape) for _ in range(4))
+        self.h, self.pressing, self.mass, self.r, self.scale = (np.zeros(shape) for _ in range(5))
         self.slope, self.by_f, self.by_h = np.zeros((2, *shape)), np.zeros((6, *shape)), np.zeros((6, *shape))
         self.held: Mask = np.zeros(shape, np.bool_)
         self.rest, self.give, self.gain, self.lack = (np.zeros(shape) for _ in range(4))
@@ -196,7 +196,8 @@ class _Film:
             full, flux, first = carried.full, carried.flux, carried.first
             cavities.close_inlet(p, f, solid, q.first)
         bodies = (q.undeformed, deformation, self.rigid)
-        reynolds.film_pass(p, f, solid, *bodies, *oil, self.h, full, *flow.nodes, False, None, 0.0)
+        film = (self.h, self.pressing, full, *flow.nodes)
+        reynolds.film_pass(p, f, solid, *bodies, *oil, *film, False, None, 0.0)
         solid &= self.inner & (room > 0.0) if q.depth > 0.0 else self.inner  # the edge does not touch
         if q.wrapped:
             wrap(solid)

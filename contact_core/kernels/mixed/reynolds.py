@@ -41,6 +41,7 @@ def film_pass(  # type: ignore[no-untyped-def]
     fluidity,
     potential,
     h,
+    pressing,
     mass,
     gap,
     rho,
@@ -52,17 +53,18 @@ def film_pass(  # type: ignore[no-untyped-def]
 ):
     """Compute gap, new solid contacts, full mass and the nodes' properties of `flow` from the pressure.
 
-    `deformation` may have more columns than there are nodes. lumped: f = p on solid contacts, too; where that is zero
-    they are released. ruled: nodes that count as solid contacts although asperities share the load with oil there, see
-    `asperities.share_out`; None: there are none. trace: part of what asperities carry, below which oil counts as none.
+    `deformation` may have more columns than there are nodes. pressing: what asperities carry at the gap. lumped: f = p
+    on solid contacts, too; where that is zero they are released. ruled: nodes that count as solid contacts although
+    asperities share the load with oil there, see `asperities.share_out`; None: there are none. trace: part of what
+    asperities carry, below which oil counts as none.
     """
     ny, nx = p.shape
     touch = _TOUCH * floor
     for j in range(ny):
         for i in range(nx):
             here = rigid + undeformed[j, i] + deformation[j, i]
-            h[j, i] = here
             touches, own = solid[j, i], carried_at(here, floor, stress, depth)
+            h[j, i], pressing[j, i] = here, own
             if touches and p[j, i] <= 0.0 and own <= 0.0 and (lumped or here > floor):
                 touches = False  # it carries no load
             elif touches and depth > 0.0 and own < p[j, i] and here > floor:
