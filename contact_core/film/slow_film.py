@@ -26,6 +26,9 @@ Solve = Callable[[Instant, Grid, Settings], FilmSolution]
 _PER_DOUBLING = 4.0  # loads and speeds, and
 _KELVIN = 4.0  # temperatures, whose rests are told apart: a film need not be known exactly to be what stands still
 _ITERATIONS = 2000  # of a steady film, at most
+# formula film over floor, below which solids carry nearly all of rough contacts: a film so near the floor is hard to
+# find, and what stands still there decides nothing
+_THIN = 3.0
 _DIGITS = 9  # of a node
 
 
@@ -118,8 +121,11 @@ def _on_nodes(smooth: _Smooth, part: float, solve: Solve) -> Array:
 
 @lru_cache(maxsize=32)
 def _rest(smooth: _Smooth, solve: Solve) -> Array:
-    """Return the mass of a steady film less Hertz's gap [m]; without a solution a constant, which has no effect."""
+    """Return the mass of a steady film less Hertz's gap [m]: a constant for thin films, and without a solution."""
     grid, (load, speed) = smooth.grid, smooth.near
+    about = smooth.shape.smooth(load, speed, smooth.viscosity, smooth.temperature, smooth.reduced_modulus).film
+    if about < _THIN * smooth.settings.floor:
+        return np.full(smooth.nodes, max(about, smooth.settings.floor))
     if grid.periodic:  # all rows are alike
         grid = replace(grid, y=np.zeros(1), repeats=grid.repeats * grid.y.size)
     now = Instant(
@@ -139,4 +145,4 @@ def _rest(smooth: _Smooth, solve: Solve) -> Array:
         found = solve(now, grid, smooth.settings)
         if found.route == "mixed":
             return np.asarray(found.state.mass - smooth.gap(load, 0.0))
-    return np.full(smooth.nodes, smooth.settings.floor)
+    return np.full(smooth.nodes, about)
