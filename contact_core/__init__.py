@@ -1,16 +1,14 @@
 """A lubricated contact of two rough, moving bodies: film, friction, tribofilm and wear.
 
 A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperature) go in; `Outputs` and a new, frozen
-`ContactState` come out. Four levels answer behind one door, `advance`. Where to find what:
+`ContactState` come out. Two levels answer behind one door, `advance`: one solves the contact, the other estimates it,
+and a correction may move the estimate. Where to find what:
 
     advance          checks once, binds scene and operating point in a `Case`, hands over to the level
     deterministic/   the level that solves the contact node by node
     regression/      the level of film formulas and fitted curves, microseconds a step
     assumed          what the assumptions of a scene are worth, by the regression level
-    correction       what solved contacts say about the errors of the regression level elsewhere
-    amended          a contact of the regression level with friction, film and W_c from elsewhere
-    auto             the level of the regression level, corrected by blocks where it is not sure enough
-    mapped/          the level of the regression level, corrected by a map of solved contacts
+    corrections/     what moves friction, h_c and W_c of the regression level: deterministic blocks, or a map
     surfaces/        roughness, body-fixed patches, track means, profiles
     state/           `ContactState`, `Outputs`, `RangeFlag`, trends, storage
     scene/           `Scene`, `OperatingPoint`, `Case`, checks, TOML, units
@@ -29,8 +27,8 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     data/            named oils, solids and tribofilms, and the shipped scenes
 
 Imports run one way: errors, progress, quantities, reference <- entry_points, kernels <- laws <- shapes <- film <-
-scene <- state, calls <- surfaces <- deterministic, regression, correction <- amended <- auto, mapped <- advance,
-assumed. The first two levels do not import each other. Everything inside is SI; heights are metres above a body's mean
+scene <- state, calls <- surfaces <- deterministic, regression <- corrections <- advance, assumed. The two levels do not
+import each other. Everything inside is SI; heights are metres above a body's mean
 plane, positive toward the other body; arrays are [ny, nx], x along entrainment.
 """
 

@@ -1,15 +1,15 @@
 """The door to both levels: an operating point is checked and bound once, and the level takes the step.
 
-A level is a package with `advance` and `warm_up`; a scene's `film.model` names it.
+A level is a package with `advance`, `warm_up` and `errors_of`; a scene's `film.model` names it.
 """
 
 from contextlib import suppress
 from dataclasses import replace
 from typing import Protocol
 
-from . import auto, deterministic, mapped, regression
+from . import corrections, deterministic
 from .errors import ContactError, OperatingPointError
-from .film import Auto, Deterministic, Mapped, Regression
+from .film import Deterministic, Regression
 from .scene import Case, OperatingPoint, Scene
 from .state import ContactState, Error, Outputs, initial_state
 
@@ -19,7 +19,7 @@ _SPEED = 0.1  # m/s: of one body, where the scene lets nothing slide
 
 
 class Level(Protocol):
-    """A fidelity level."""
+    """A level."""
 
     def advance(self, case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
         """Return the state and outputs after `dt` [s]."""
@@ -31,12 +31,7 @@ class Level(Protocol):
         """Return the errors of the outputs of a state."""
 
 
-LEVELS: dict[str, Level] = {
-    Deterministic.name: deterministic,
-    Regression.name: regression,
-    Auto.name: auto,
-    Mapped.name: mapped,
-}
+LEVELS: dict[str, Level] = {Deterministic.name: deterministic, Regression.name: corrections}
 
 
 def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:

@@ -84,7 +84,7 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
             "fidelity level from the next step on: 1 regression, 2 deterministic, 3 auto, 4 map",
             "Integer",  # as an Enumeration, libcosim and ecos would leave it out, and silently not set it
             "parameter",
-            fidelity_of(scene.film.name),
+            fidelity_of(scene.film.fidelity),
             minimum=1,
             maximum=len(LEVELS),
         ),
@@ -107,7 +107,7 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
         *(
             of_quantity(q, "output", ZERO[q.kind])
             for q in OUTPUTS
-            if scene.film.name in q.levels and q.name not in lacks
+            if scene.film.fidelity in q.levels and q.name not in lacks
         ),
         CLOCK,
     )

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from contact_core import Scene, advance, initial_state
-from contact_core.mapped.fitting import Rule, fitted
-from contact_core.mapped.knot import History, Knot, Plan, contact_of, samples_of
-from contact_core.mapped.map import Map, digest_of
+from contact_core.corrections.fitting import Rule, fitted
+from contact_core.corrections.knot import History, Knot, Plan, contact_of, samples_of
+from contact_core.corrections.map import Map, digest_of
 from contact_core.regression.contact import MeanContact
 from contact_core.scene import Case
 from system_models.run.map_ranges import Ranges

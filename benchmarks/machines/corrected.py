@@ -19,8 +19,8 @@ import xarray as xr
 from benchmarks.dependencies import kept
 from benchmarks.pages import Page
 from contact_core import Outputs
-from contact_core.auto import ACCURACY
-from contact_core.correction import Conditioned, Place, conditioned
+from contact_core.corrections.blocks import ACCURACY
+from contact_core.corrections.kriging import Conditioned, Place, conditioned
 from system_models.machines import reading
 from system_models.machines.assembly import Assembly
 from system_models.machines.corrected import corrected, deviation, knots_of, with_corrected

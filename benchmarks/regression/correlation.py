@@ -1,9 +1,9 @@
-"""How the regression level's deviations from deterministic solutions go together: constants of contact_core/correction.py.
+"""How the regression level's deviations from deterministic solutions go together: constants of contact_core/corrections/kriging.py.
 
     python -m benchmarks.regression.correlation  # a minute: docs/measured/regression/correlation.md
 
 Takes the contacts that regression.curves, regression.shapes and regression.held_back have solved and kept in results/;
-solves none. Prints the constants as contact_core/correction.py has them.
+solves none. Prints the constants as contact_core/corrections/kriging.py has them.
 """
 
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ from benchmarks.pages import Page
 from benchmarks.regression import held_back_points, shapes_points
 from benchmarks.regression.points import SCENES, STORE, end_points, random_points, sweep_points
 from contact_core import OperatingPoint, RangeFlag, Scene, advance, initial_state
-from contact_core.correction import (
+from contact_core.corrections.kriging import (
     CORRECTED,
     CORRELATIONS,
     Correlation,
@@ -147,7 +147,7 @@ def main() -> None:
         f"{given.count} contacts at both levels: those of [curves](curves.md), [shapes](shapes.md) and "
         "[held_back](held_back.md). A deviation is taken over the half width that the regression level states. Shares of "
         "its variance: common to a pair of surfaces, smooth (with the lengths over which it changes), likewise but of one pair alone, of each contact. "
-        "Fitted by maximum likelihood; `contact_core/correction.py` has rounded constants."
+        "Fitted by maximum likelihood; `contact_core/corrections/kriging.py` has rounded constants."
     )
     page.header("output", "", "common", "smooth", "paired", "nugget", *Place._fields)
     for k, name in enumerate(CORRECTED):

@@ -21,11 +21,20 @@ from benchmarks.folders import RESULTS
 from benchmarks.pages import Page
 from benchmarks.regression.map_runs import NAMES, along_runs, near_rolling
 from contact_core import Scene
-from contact_core.correction import Knots, Place, conditioned
-from contact_core.mapped import fitting
-from contact_core.mapped.fitting import COVERED, Rule, Samples, TooFewError, fitted, predicted, spread_at, widths_at
-from contact_core.mapped.knot import History, samples_of
-from contact_core.mapped.map import COORDINATES, Map, digest_of
+from contact_core.corrections import fitting
+from contact_core.corrections.fitting import (
+    COVERED,
+    Rule,
+    Samples,
+    TooFewError,
+    fitted,
+    predicted,
+    spread_at,
+    widths_at,
+)
+from contact_core.corrections.knot import History, samples_of
+from contact_core.corrections.kriging import Knots, Place, conditioned
+from contact_core.corrections.map import COORDINATES, Map, digest_of
 from system_models.run.map_build import (
     Judged,
     Order,

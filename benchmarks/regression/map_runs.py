@@ -10,9 +10,9 @@ import numpy as np
 
 from benchmarks.pages import Page
 from contact_core import OperatingPoint, Outputs, Scene, advance, initial_state
-from contact_core.correction import CORRECTED
-from contact_core.mapped.knot import History
-from contact_core.mapped.map import Map
+from contact_core.corrections.knot import History
+from contact_core.corrections.kriging import CORRECTED
+from contact_core.corrections.map import Map
 from system_models.run.map_build import SEED, Order, is_held, scene_of_histories
 
 NAMES = ("friction", "h_c", "W_c")

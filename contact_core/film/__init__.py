@@ -2,8 +2,6 @@
 
     deterministic   the record of the deterministic level in a scene
     regression      the record of the regression level in a scene
-    auto            the record of the level in between in a scene
-    mapped          the record of the level of a map in a scene
     instant         grid, instant and solution, in SI
     scaled          an instant in the dimensionless units of the kernels
     starts          starts of the iterations
@@ -26,11 +24,9 @@
 """
 
 from ..kernels.convergence import Convergence
-from .auto import Auto
 from .deterministic import Deterministic
-from .mapped import Mapped
 from .regression import Regression
 
-FILMS: tuple[type[Deterministic] | type[Regression], ...] = (Deterministic, Regression, Auto, Mapped)
+FILMS: tuple[type[Deterministic] | type[Regression], ...] = (Deterministic, Regression)
 
-__all__ = ["FILMS", "Auto", "Convergence", "Deterministic", "Mapped", "Regression"]
+__all__ = ["FILMS", "Convergence", "Deterministic", "Regression"]

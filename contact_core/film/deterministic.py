@@ -80,6 +80,7 @@ class Deterministic:
     """
 
     name: ClassVar[str] = "deterministic"
+    fidelity: ClassVar[str] = "deterministic"  # one of `quantities.LEVELS`
     source: ClassVar[str] = (
         "Azam et al. 2019, doi:10.1016/j.triboint.2018.11.011; the split of fluid and solid pressure is ours"
     )

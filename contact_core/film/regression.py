@@ -1,12 +1,17 @@
 """The regression level: film formulas and curves of load sharing for the means of rough surfaces."""
 
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any, ClassVar
 
 from ..laws.base import Rheology, Tribofilm
 from ..laws.equations import Equations, OfShape
 from ..laws.load_sharing import FittedSharing
 from ..quantities import parameter
+
+# what may correct the level, and the fidelity that it then has
+CORRECTIONS = {"none": "regression", "blocks": "auto", "map": "map"}
+MAP_SUFFIX = ".json"  # of files of maps
 
 
 @dataclass(frozen=True)
@@ -77,7 +82,23 @@ class Regression:
         default=2.3,
     )
 
+    correction: str = parameter(
+        "",
+        "what corrects friction, h_c and W_c. blocks: deterministic ones, where friction or film are less sure than "
+        "control.accuracy, 10 % without it; map: a map of solved contacts (tribofmu map)",
+        choices=tuple(CORRECTIONS),
+        default="none",
+    )
+    file: str = parameter(
+        "", "the map: a file, or the name of a shipped one; empty: the shipped one of the scene's name", default=""
+    )
+
     tolerance: ClassVar[None] = None  # of a solution: nothing is iterated
+
+    @property
+    def fidelity(self) -> str:
+        """Name of the level with its correction, one of `quantities.LEVELS`."""
+        return CORRECTIONS[self.correction]
 
     @property
     def spacing(self) -> float:
@@ -104,3 +125,18 @@ class Regression:
         """Return the equations of a contact of this geometry and lubricant at this level, for documentation."""
         thinning = lubricant.rheology.inlet_thinning if lubricant.flow == "local" else None
         return geometry.smooth_film, geometry.rolling, *([thinning] if thinning else [])
+
+
+def map_file(film: Any) -> str | None:
+    """Return the map that a record names, empty: the shipped one of the scene's name; None without a map."""
+    return film.file if film.fidelity == "map" else None
+
+
+def with_map_found(film: Any, folders: tuple[Path, ...]) -> Any:
+    """Return a record with the path of the file of its map as found in one of the folders, if there is any."""
+    file = map_file(film)
+    if file is not None and file.endswith(MAP_SUFFIX):
+        for folder in folders:
+            if (folder / file).is_file():
+                return replace(film, file=str((folder / file).resolve()))
+    return film

@@ -60,7 +60,7 @@ def planned(scene: Scene, open_fields: Collection[str]) -> Scene:
     accuracy = scene.control.accuracy
     if accuracy is None or not open_fields or not 0.0 < accuracy <= 1.0:  # what is out of range is refused later
         return scene
-    if scene.film.name in UNSOLVED:
+    if scene.film.fidelity in UNSOLVED:
         return _for_patches(scene, open_fields)
     finer = _AT / accuracy
     values: dict[str, Any] = {

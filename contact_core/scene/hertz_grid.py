@@ -15,6 +15,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any, TypeVar
 
+from ..film import Regression
 from ..film.inlet_loss import inlets_for, is_light
 from ..film.lengths import inlet_length
 from ..quantities import UNSOLVED
@@ -43,7 +44,8 @@ def provisional(table: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
     if not isinstance(film, Mapping):
         return dict(table), []
     missing = {name: value for name, value in PROVISIONAL.items() if name not in film}
-    solved = film.get("model") not in UNSOLVED  # the others have a grid of their own, for their patches
+    corrected = film.get("correction") == "blocks"
+    solved = film.get("model") != Regression.name or corrected  # others have a grid of their own, for their patches
     return ({**table, "film": {**film, **missing}} if solved else dict(table)), list(missing)
 
 
@@ -53,7 +55,7 @@ def fitted(scene: Scene, open_fields: Collection[str]) -> Scene:
         scene = _sized(scene)
     if "points" not in open_fields:
         return scene
-    solved = scene.film.name not in UNSOLVED
+    solved = scene.film.fidelity not in UNSOLVED
     least = _FEWEST if solved and _ratio(scene) > _LONG_ELLIPSE else _USUAL
     nodes = _NODES if solved else 1.0
     shortest = min((each.length for each in _rough(scene)), default=math.inf)
@@ -129,7 +131,7 @@ def _sized(scene: Scene) -> Scene:
     """Return the scene with the length of its grid, and for a long ellipse its width."""
     hertz, ratio = scene.hertz(scene.largest_load), _ratio(scene)
     square = room_for_hertz(scene)
-    if scene.film.name in UNSOLVED:
+    if scene.film.fidelity in UNSOLVED:
         domain = max(scene.film.domain, square)
     else:
         if ratio > _ELLIPSE and scene.film.width == 0.0:

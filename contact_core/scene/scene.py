@@ -10,9 +10,9 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from ..errors import SceneError
-from ..film import FILMS
-from ..film.mapped import with_map_found
-from ..quantities import out_of_range
+from ..film import Deterministic, Regression
+from ..film.regression import CORRECTIONS, with_map_found
+from ..quantities import LEVELS, out_of_range
 from . import checks, ensemble, hertz_grid, plausibility
 from .accuracy import planned, provisional
 from .defaults import Assumed, completed_by_defaults
@@ -23,7 +23,7 @@ from .intervals import applicable
 from .operation import OperatingPoint
 from .problems import TableError
 from .surface import SEEDS
-from .toml import build, completed, did_you_mean, given, located
+from .toml import build, completed, did_you_mean, given, located, with_correction
 from .units import parse
 
 _TO_START = "All else has a default; `tribofmu new NAME` writes a scene to start from."
@@ -81,20 +81,23 @@ class Scene(SceneFields):
         return checked(replace(self, **{name: surface}))
 
     def at_level(self, level: str) -> "Scene":
-        """Return the scene with `film.model` = `level`, on the same grid: both levels share their states.
+        """Return the scene at a fidelity, one of `quantities.LEVELS`, on the same grid: both levels share their states.
 
-        Fields that only the film of the other level has get their defaults. Raises SceneError for an unknown level.
+        Fields that only the film of the other level has get their defaults. Raises SceneError for an unknown fidelity.
         """
-        films = {film.name: film for film in FILMS}
-        if level not in films:
+        if level not in LEVELS:
             raise SceneError(
-                f"There is no level '{level}'.{did_you_mean(level, list(films))} Known are {', '.join(films)}."
+                f"There is no level '{level}'.{did_you_mean(level, list(LEVELS))} Known are {', '.join(LEVELS)}."
             )
-        record = films[level]
-        if type(self.film) is record:
+        if self.film.fidelity == level:
             return self
+        corrections = {fidelity: correction for correction, fidelity in CORRECTIONS.items()}
+        record: type[Deterministic] | type[Regression] = Regression if level in corrections else Deterministic
+        given: dict[str, Any] = {"correction": corrections[level]} if level in corrections else {}
+        if type(self.film) is record:
+            return replace(self, film=replace(self.film, **given))
         shared = {f.name for f in fields(record)} & {f.name for f in fields(self.film)}
-        film = record(**{name: getattr(self.film, name) for name in shared})
+        film = record(**{name: getattr(self.film, name) for name in shared}, **given)
         return replace(self, film=film.with_sharing(self.geometry.sharing()))
 
     def realisation(self, seed: int) -> "Scene":
@@ -137,7 +140,7 @@ class Scene(SceneFields):
 def _built(table: Mapping[str, Any], folders: tuple[Path, ...]) -> tuple[Scene, tuple[Assumed, ...]]:
     """Return the checked scene of nested tables, and the values that these do not give."""
     ensemble.refuse_lists(table)
-    given, assumed = completed_by_defaults(located(ensemble.taken(table), *folders))
+    given, assumed = completed_by_defaults(located(ensemble.taken(with_correction(table)), *folders))
     chosen, for_accuracy = provisional(completed(given))
     filled, of_grid = hertz_grid.provisional(chosen)
     try:

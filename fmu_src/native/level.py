@@ -3,29 +3,28 @@
 from contextlib import suppress
 
 from contact_core import advance, initial_state
+from contact_core.corrections.map import map_of
 from contact_core.errors import ContactError
-from contact_core.film import Mapped, Regression
-from contact_core.mapped.map import map_of
 from contact_core.quantities import UNSOLVED
 from contact_core.scene import Scene
 
 
 def unsolved(scene: Scene) -> Scene:
     """Return the scene at a level that solves no contact; its own, if that is one."""
-    if scene.film.name in UNSOLVED:
+    if scene.film.fidelity in UNSOLVED:
         return scene
     with suppress(ContactError):
-        mapped = scene.at_level(Mapped.name)
+        mapped = scene.at_level("map")
         map_of(mapped)
         return mapped
-    return scene.at_level(Regression.name)
+    return scene.at_level("regression")
 
 
 def other_level(scene: Scene, taken: Scene) -> str:
     """Return a sentence on the level `taken` in place of the scene's own, with its stated errors."""
     return (
-        f"film.model = '{taken.film.name}' in place of '{scene.film.name}': a native FMU has no solver. Its stated "
-        f"errors: {_stated_error(taken)}. --flavour isolated solves the contact."
+        f"the level '{taken.film.fidelity}' in place of '{scene.film.fidelity}': a native FMU has no solver. Its "
+        f"stated errors: {_stated_error(taken)}. --flavour isolated solves the contact."
     )
 
 

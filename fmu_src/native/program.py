@@ -13,10 +13,9 @@ from typing import Any
 import numpy as np
 
 from contact_core import initial_state
+from contact_core.corrections.map import map_of
+from contact_core.corrections.query import corrected, slopes
 from contact_core.errors import OperatingPointError, SceneError
-from contact_core.film import Mapped, Regression
-from contact_core.mapped.map import map_of
-from contact_core.mapped.query import corrected, slopes
 from contact_core.quantities import OF_CALLER, OF_CORE
 from contact_core.regression import evolution
 from contact_core.regression.contact import MeanContact, evaluate
@@ -93,7 +92,7 @@ def _withown_radii(case: Case) -> OperatingPoint:
 def step(case: Case, state: ContactState, dt: float) -> Found:
     """Return the state and the outputs after a step of `dt` [s]."""
     begun = _begun(case.op, state)
-    after, outputs = evolution.advance(bound(case, begun), begun, dt, _LEVELS[case.scene.film.name](case.scene))
+    after, outputs = evolution.advance(bound(case, begun), begun, dt, _LEVELS[case.scene.film.fidelity](case.scene))
     if case.scene.heat.bulk.stores_heat and dt == 0.0:  # bodies begin at the temperature of the oil of the first step
         after = changed(after, temperatures=state.temperatures)
     return after, outputs
@@ -127,11 +126,11 @@ def _of_map(scene: Scene) -> evolution.ContactOf:
 
 
 # of a scene at its level, the function that evaluates contacts, without derivatives
-_LEVELS: dict[str, Callable[[Scene], evolution.ContactOf]] = {Regression.name: _of_curves, Mapped.name: _of_map}
+_LEVELS: dict[str, Callable[[Scene], evolution.ContactOf]] = {"regression": _of_curves, "map": _of_map}
 
 
 def _by_map(scene: Scene) -> bool:
-    return {Regression.name: False, Mapped.name: True}[scene.film.name]
+    return scene.film.fidelity == "map"
 
 
 def _begun(point: OperatingPoint, state: ContactState) -> ContactState:
@@ -305,10 +304,10 @@ def _equations(scene: Scene) -> dict[str, str]:
 
 def _check(scene: Scene) -> None:
     """Raise SceneError for a scene that no native FMU can have."""
-    if scene.film.name not in _LEVELS:
+    if scene.film.fidelity not in _LEVELS:
         raise SceneError(
-            f"film.model = '{scene.film.name}' solves contacts, and a native FMU has no solver. Set film.model = "
-            f"{' or '.join(repr(name) for name in _LEVELS)}, or build with --flavour isolated."
+            f"The level '{scene.film.fidelity}' solves contacts, and a native FMU has no solver. Set film.model = "
+            "'regression' without film.correction = 'blocks', or build with --flavour isolated."
         )
 
 

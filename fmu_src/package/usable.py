@@ -50,7 +50,7 @@ def _bound(inside: float, end: float, fits: Callable[[float], bool]) -> float:
 
 def _can(scene: Scene) -> Callable[[OperatingPoint], bool]:
     """Return the function that says whether a scene can use an operating point."""
-    level = scene if scene.film.name in UNSOLVED else scene.at_level(Regression.name)
+    level = scene if scene.film.fidelity in UNSOLVED else scene.at_level(Regression.name)
     state = initial_state(level)
 
     def can(point: OperatingPoint) -> bool:

@@ -20,10 +20,10 @@ from typing import Any
 import pythonfmu
 
 import contact_core
+from contact_core.corrections.map import map_of
 from contact_core.entry_points import versions
 from contact_core.errors import SceneError
-from contact_core.film.mapped import MAP_SUFFIX, map_file
-from contact_core.mapped.map import map_of
+from contact_core.film.regression import MAP_SUFFIX, map_file
 from contact_core.scene import Scene
 from contact_core.scene.in_use import in_use
 

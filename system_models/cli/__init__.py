@@ -14,7 +14,7 @@
     sweep       sweep: a scene with many values of its keys
     fit         fit: constants of a scene from measured numbers
     log         log: a duty and data of a rig's text log
-    map         map: a scene's map for film.model = "map"
+    map         map: a scene's map for film.correction = "map"
     validate    validate: verdicts against measurements and published numbers
     build       build: the FMU of a scene
     check       check: verdicts on an FMU

@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from ..store.checkpoint import Checkpoint
 
 
-_LEVEL, _DEEP = "contact.film.model", "deterministic"  # keys that set the levels of contacts
+# keys that set the levels of contacts
+_LEVEL, _CORRECTION, _DEEP = "contact.film.model", "contact.film.correction", "deterministic"
 
 # keys of a machine that options stand for
 _STAND_FOR = {
@@ -81,13 +82,14 @@ def _without_solver(assembly: "Assembly", changes: "Mapping[str, str]") -> dict[
     """Return the change to a level that native FMUs of the contacts can have; say so. None where one is set."""
     from fmu_src.native.level import other_level, unsolved
 
-    if {_LEVEL, _DEEP} & changes.keys():
+    if {_LEVEL, _CORRECTION, _DEEP} & changes.keys():
         return {}
     for name, contact in assembly.contacts.items():
         scene = contact.own_scene
         if (taken := unsolved(scene)) is not scene:
             note(f"{name}: {other_level(scene, taken)}")
-            return {_LEVEL: taken.film.name, _DEEP: "[]"}
+            film = taken.to_dict()["film"]
+            return {_LEVEL: film["model"], _CORRECTION: film["correction"], _DEEP: "[]"}
     return {}
 
 

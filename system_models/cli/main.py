@@ -66,7 +66,7 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "sweep": (sweep, "run a scene with many values of some of its keys"),
     "fit": (fit, "fit constants of a scene to measured films, friction or wear"),
     "log": (log, "make a duty and data to fit of a test rig's text log"),
-    "map": (mapping, "make the map of a scene for film.model = 'map', by solved contacts"),
+    "map": (mapping, "make the map of a scene for film.correction = 'map', by solved contacts"),
     "build": (build, "build the FMU of a scene, for another tool"),
     "validate": (validate, "compare answers with measurements, published numbers and closed forms"),
     "check": (check, "give a verdict per rule on any FMU"),

@@ -1,4 +1,4 @@
-"""The command `tribofmu map`: makes the map of a scene, for film.model = "map"."""
+"""The command `tribofmu map`: makes the map of a scene, for film.correction = "map"."""
 
 import argparse
 import re
@@ -85,7 +85,7 @@ def run(arguments: argparse.Namespace) -> int:
         print(*map_report.lines(built), sep="\n")
         written = map_report.write(built, folder)
     print(f"Written: {', '.join(map(str, written))}")
-    print(f"A scene uses the map by film.model = 'map' and film.file = '{written[0].resolve()}'.")
+    print(f"A scene uses the map by film.correction = 'map' and film.file = '{written[0].resolve()}'.")
     if not built.reached:
         note("The time was over first. The same command goes on from what is solved.")
     return 0 if built.reached else 1

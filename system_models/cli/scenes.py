@@ -157,7 +157,7 @@ def chosen(scene: Scene) -> list[str]:
     accuracy, film, control = scene.control.accuracy, scene.film, scene.control
     if accuracy is None:
         return []
-    if film.name in UNSOLVED:
+    if film.fidelity in UNSOLVED:
         return [f"Accuracy {100.0 * accuracy:g} %: larger stated errors are flagged; this level has nothing to choose."]
     return [
         f"Accuracy {100.0 * accuracy:g} %: {film.points} nodes over {1e3 * film.domain:.3g} mm, blocks of "

@@ -124,7 +124,7 @@ def _processes(asked: int | None, scene: Scene) -> int:
     """Return --processes; to start some takes longer than points that solve no contact."""
     from ..run.workers import cores
 
-    return processes_of(asked) if asked is not None else 1 if scene.film.name in UNSOLVED else cores()
+    return processes_of(asked) if asked is not None else 1 if scene.film.fidelity in UNSOLVED else cores()
 
 
 def _sweep(scene: Scene, duty: "Duty", curves: "Curves", processes: int) -> None:

@@ -17,11 +17,7 @@ _MEANS = (
 )
 # by key and choice, None: not given; laws say it themselves, in their equations
 OPTIONS: dict[str, dict[str | None, str]] = {
-    "film.model": {
-        "regression": _MEANS,
-        "map": _MEANS,
-        "auto": _MEANS,
-    },
+    "film.model": {"regression": _MEANS},
     "lubricant.flow": {
         "newtonian": "Thinning of the flow: Reynolds' equation sees the viscosity at the temperature of the inlet. Of "
         "oils that thin under shear, and of warm films, the film comes out too thick; 'local' counts both."

@@ -36,10 +36,11 @@ def sentences(scene: Scene) -> Iterator[str]:
     stated += ["error_tribofilm_1 and _2"] if scene.tribofilm.source else []
     stated += ["error_wear"] if scene.wear.wears else []
     stated += ["error_damage"] if scene.fatigue.damages else []
+    level = scene.film.fidelity
     yield (
-        f"Every result of this level ({scene.film.name}) states half widths of 95 % intervals: {', '.join(stated)}. "
-        f"{LEVELS[scene.film.name].errors} They are errors of the solution: that of a law is not in them, and that of "
-        "a number that is assumed stands beside them, by its interval."
+        f"Every result of this level ({level}) states half widths of 95 % intervals: {', '.join(stated)}. "
+        f"{LEVELS[level].errors} They are errors of the solution: that of a law is not in them, and that of a number "
+        "that is assumed stands beside them, by its interval."
     )
     yield from scene.warnings()
 
@@ -56,7 +57,7 @@ def assumptions(scene: Scene) -> list[tuple[str, ...]]:
 def commands(source: str, scene: Scene) -> Iterator[tuple[str, str]]:
     """Yield commands with what they show."""
     yield f"tribofmu run {source}", "results with their errors"
-    if scene.film.name in UNSOLVED:
+    if scene.film.fidelity in UNSOLVED:
         yield f"tribofmu run {source} --set film.model=deterministic", "the level that this one is fitted to"
     else:
         yield f"tribofmu run {source} --accuracy 5%", "chooses grid, tolerance and blocks for that error"

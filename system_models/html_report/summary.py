@@ -49,7 +49,7 @@ def _conditions(run: Run) -> str:
         f"oil at {point.temperature - 273.15:.4g} °C",
     ]
     changing = " at the start of its duty" if len(scene.operation.steps) or scene.operation.file else ""
-    return paragraph(f"{scene.name}, as it was run{changing}: {', '.join(parts)}; level {scene.film.name}.")
+    return paragraph(f"{scene.name}, as it was run{changing}: {', '.join(parts)}; level {scene.film.fidelity}.")
 
 
 def _end(run: Run, panel: Panel, contact: str) -> Iterator[tuple[str, float, float | None, Unit]]:

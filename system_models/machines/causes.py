@@ -54,7 +54,7 @@ def of_result(assembly: Assembly, dataset: xr.Dataset) -> dict[str, Causes]:
 
 def _solved(assembly: Assembly, name: str) -> bool:
     """Return True for a contact at a level that solves contacts, whose errors have several causes."""
-    return assembly.contacts[name].own_scene.film.name not in UNSOLVED
+    return assembly.contacts[name].own_scene.film.fidelity not in UNSOLVED
 
 
 def _by_curves(dataset: xr.Dataset, contact: str) -> Causes:

@@ -1,7 +1,7 @@
 """A machine's run corrected by the states that are solved again: friction, film and W_c of all its contacts.
 
-The run stays as it is: its components have seen the regression level's friction. `contact_core.correction` has the
-method. A state that judges never conditions: each is judged by the others.
+The run stays as it is: its components have seen the regression level's friction. The method is that of
+`contact_core.corrections.kriging`. A state that judges never conditions: each is judged by the others.
 """
 
 import math
@@ -14,7 +14,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from contact_core import OperatingPoint
-from contact_core.correction import (
+from contact_core.corrections.kriging import (
     CORRECTED,
     Conditioned,
     Knots,

@@ -16,7 +16,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from contact_core import ContactError, ContactState, OperatingPoint, Outputs, RangeFlag, advance, initial_state
-from contact_core.correction import Place, pair_of, place
+from contact_core.corrections.kriging import Place, pair_of, place
 from contact_core.quantities import LEVELS
 from contact_core.scene import Case, Scene, tunables, with_values
 

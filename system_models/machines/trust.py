@@ -206,7 +206,7 @@ def _verdict(assembly: Assembly, contacts: Mapping[str, xr.Dataset]) -> Iterator
         return
     parts = [_least(found, len(contacts)) for found in known.values()]
     surer = verdict.way_out(contact.own_scene for contact in assembly.contacts.values())
-    surer = surer.replace("film.model=auto or deterministic", "contact.film.model=auto")
+    surer = surer.replace("film.correction=blocks or film.model=deterministic", "contact.film.correction=blocks")
     words = "known at the end" if len(contacts) == 1 else "known at the end, where it is known least"
     yield f"Verdict: {words}: {', '.join(parts)}. {surer}".rstrip()
 

@@ -17,12 +17,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_core.correction import CORRECTED
+from contact_core.corrections.fitting import Rule, Samples, TooFewError, fitted, widths_at
+from contact_core.corrections.knot import History, coarser, contact_of, samples_of, solve
+from contact_core.corrections.kriging import CORRECTED
+from contact_core.corrections.map import Map, digest_of
+from contact_core.corrections.query import here, told
 from contact_core.errors import ContactError
-from contact_core.mapped.fitting import Rule, Samples, TooFewError, fitted, widths_at
-from contact_core.mapped.knot import History, coarser, contact_of, samples_of, solve
-from contact_core.mapped.map import Map, digest_of
-from contact_core.mapped.query import here, told
 from contact_core.regression.outputs import half_widths
 from contact_core.scene import Scene
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from contact_core.corrections.knot import Plan
 from contact_core.errors import ContactError
-from contact_core.mapped.knot import Plan
 from contact_core.scene import OperatingPoint, Scene, units
 
 Range = tuple[float, float]

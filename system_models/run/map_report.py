@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contact_core.mapped.map import COORDINATES, OUTPUTS
+from contact_core.corrections.map import COORDINATES, OUTPUTS
 from contact_core.scene import OperatingPoint
 
 from .cosim_report import aligned

@@ -154,7 +154,7 @@ class Curves:
         failures = [sentence for _, sentence in sorted(self._failures.items())]
         sentences = [*failures, *([f"{missing} points were not reached."] if missing else [])]
         return with_scene(found, scene, duty).assign_attrs(
-            film=scene.film.name, friction_midway=level, failures="\n".join(sentences)
+            film=scene.film.fidelity, friction_midway=level, failures="\n".join(sentences)
         )
 
     def _coordinates(self) -> dict[str, tuple[tuple[str, ...], ArrayLike, dict[str, str]]]:

@@ -163,5 +163,5 @@ def _title(dataset: xr.Dataset) -> str:
     return (
         f"{dataset.attrs['scene']}: {float(dataset['load']):.4g} N, {float(dataset['temperature']) - 273.15:.4g} °C, "
         f"slide-to-roll ratio {100.0 * float(dataset['slide_roll_ratio']):.3g} %, "
-        f"film.model = {dataset.attrs['film']}"
+        f"level {dataset.attrs['film']}"
     )

@@ -110,7 +110,7 @@ def _word(ratio: float) -> str:
 
 def _inlet(scene: Scene, cases: Sequence[Case]) -> list[str]:
     """Return a line on a domain that cuts the inlet off, with the way out."""
-    if scene.film.name in UNSOLVED:
+    if scene.film.fidelity in UNSOLVED:
         return []
     worst = max(cases, key=lambda case: case.missing_film)
     if worst.missing_film <= _MISSING:
@@ -158,7 +158,7 @@ def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
     """Return a line on a grid that is too coarse for the contact, with the way out."""
     least, most = (f(case.hertz.a for case in cases) for f in (min, max))
     nodes = 2.0 * least / scene.film.spacing
-    if scene.film.name in UNSOLVED or nodes >= _FEW:
+    if scene.film.fidelity in UNSOLVED or nodes >= _FEW:
         return []
     waves = _WAVES * max(side.surface.length for side in cases[0].sides)
     wide = max(_WIDE * most, waves, _flooded(cases))

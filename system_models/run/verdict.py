@@ -110,6 +110,6 @@ def _cause(error: Error | None) -> str:
 
 def way_out(scenes: Iterable[Scene]) -> str:
     """Return what makes contacts of some scenes surer; empty if there is nothing more."""
-    if any(scene.film.name in UNSOLVED for scene in scenes):
-        return "Surer: --set film.model=auto or deterministic."
+    if any(scene.film.fidelity in UNSOLVED for scene in scenes):
+        return "Surer: --set film.correction=blocks or film.model=deterministic."
     return "" if all(scene.control.accuracy for scene in scenes) else "Surer: --accuracy 5%."

@@ -119,9 +119,9 @@ def test_an_interpreter_is_not_named_and_left_out_at_once(capsys):
 )
 def test_a_native_fmu_takes_a_level_that_solves_nothing_and_says_so(asked, capsys, scene, settings, level):
     taken = asked(scene, "--flavour", "native", *(["--set", *settings] if settings else []))[0]
-    assert taken.film.name == level
+    assert taken.film.fidelity == level
     said = capsys.readouterr().err
-    assert f"film.model = '{level}' in place of 'deterministic'" in said
+    assert f"the level '{level}' in place of 'deterministic'" in said
     assert "friction_coefficient +- " in said
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from mapped_scene import mapped_scene
 
 from contact_core import OperatingPoint, Outputs, RangeFlag, Scene, advance, initial_state
-from contact_core.mapped.map import STEEPEST
+from contact_core.corrections.map import STEEPEST
 from contact_core.quantities import TABLE, value_out_of_range
 
 ERRORS = ("error_friction", "error_film", "error_load_ratio")

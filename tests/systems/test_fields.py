@@ -274,7 +274,7 @@ def test_other_fields_are_another_run_and_a_result_without_them_is_not_finished(
         (["--fields", "2.5"], "--fields = '2.5' must be a whole number of times"),
         (["--fields", ""], "--fields is empty. Give a value, or leave --fields out."),
         (["--fields", "2", "--set", "film.model=regression"], "Use --set film.model=deterministic, or leave"),
-        (["--fields", "2", "--set", "film.model=auto"], "film.model = 'auto' has no fields"),
+        (["--fields", "2", "--set", "film.model=auto"], "film.model = 'regression' has no fields"),
     ],
 )
 def test_numbers_of_fields_that_cannot_be_kept_are_refused(

@@ -167,7 +167,7 @@ def test_the_command_tells_contacts_first_and_the_verdict_after(
     places = [out.index(each) for each in order]
     assert places == sorted(places)
     assert np.isfinite(number(out, r"friction to ([\d.]+) %"))
-    assert "Surer: --set contact.film.model=auto." in out
+    assert "Surer: --set contact.film.correction=blocks." in out
 
 
 def test_a_scheduled_input_has_the_value_of_the_step_that_ends_at_a_row() -> None:

@@ -14,8 +14,8 @@ from comparison import approx
 from mapped_scene import SMALL, made_up
 
 from contact_core import ContactError, Scene, advance, initial_state
-from contact_core.mapped.knot import History, Plan, coarser, solve
-from contact_core.mapped.map import read
+from contact_core.corrections.knot import History, Plan, coarser, solve
+from contact_core.corrections.map import read
 from system_models.cli.main import main
 from system_models.run import map_build
 from system_models.run.map_build import Order, is_held, scene_of_histories, tasks

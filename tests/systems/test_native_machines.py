@@ -54,7 +54,9 @@ def test_native_contacts_of_gears_have_the_radii_and_tracks_of_their_stations() 
 
 
 @pytest.mark.parametrize("export", [[], ["--ssp", "rig.ssp"]])
-@pytest.mark.parametrize("contact", ["film.model = 'deterministic'", "film.model = 'auto'", ""])
+@pytest.mark.parametrize(
+    "contact", ["film.model = 'deterministic'", "film.model = 'regression'\nfilm.correction = 'blocks'", ""]
+)
 def test_contacts_with_a_solver_take_a_level_that_native_fmus_can_have_and_say_so(
     contact: str, export: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -66,15 +68,21 @@ def test_contacts_with_a_solver_take_a_level_that_native_fmus_can_have_and_say_s
     levels: list[str] = []
 
     def built(assembly: Assembly, *_: object, **__: object) -> System:
-        levels.extend(each.own_scene.film.name for each in assembly.contacts.values())
+        levels.extend(each.own_scene.film.fidelity for each in assembly.contacts.values())
         raise ContactError("enough")
 
     monkeypatch.setattr(Assembly, "system", built)
     command = ["run", "rig.toml", "--flavour", "native", *export]
-    assert main(command) == main([*command, "--set", "contact.film.model=auto", "deterministic=[]"]) == 2
+    assert (
+        main(command)
+        == main(
+            [*command, "--set", "contact.film.model=regression", "contact.film.correction=blocks", "deterministic=[]"]
+        )
+        == 2
+    )
     assert levels == ["regression", "auto"]  # the second one is asked for, and refused by the build
     said = capsys.readouterr().err
-    assert said.count("contact: film.model = 'regression' in place of") == 1
+    assert said.count("contact: the level 'regression' in place of") == 1
     assert "friction_coefficient +- " in said
 
 

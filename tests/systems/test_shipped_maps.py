@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from contact_core import Outputs, Scene, advance, initial_state
-from contact_core.mapped.map import shipped_maps
+from contact_core.corrections.map import shipped_maps
 
 RUNS = json.loads((Path(__file__).parents[1] / "golden" / "map_runs.json").read_text("utf-8"))
 ERRORS = {"friction_coefficient": "error_friction", "h_c": "error_film", "contact_load_ratio": "error_load_ratio"}

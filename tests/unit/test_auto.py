@@ -1,4 +1,4 @@
-"""The level `auto`: as the regression level where it is sure enough, corrected by blocks where it is not."""
+"""The regression level corrected by deterministic blocks where it is not sure enough, and only there."""
 
 from dataclasses import replace
 from typing import Any
@@ -6,16 +6,21 @@ from typing import Any
 import pytest
 from comparison import approx
 
-from contact_core import ContactState, OperatingPoint, Outputs, RangeFlag, Scene, advance, auto, initial_state
-from contact_core.amended import wear_error
+from contact_core import ContactState, OperatingPoint, Outputs, RangeFlag, Scene, advance, initial_state
+from contact_core.corrections import blocks as by_blocks
+from contact_core.corrections.moved import Deviation, moved
 from contact_core.errors import ConvergenceError
+from contact_core.regression.contact import evaluate
+from contact_core.regression.surfaces import tribofilms_of
 from contact_core.scene import Case
+from contact_core.surfaces.track_means import means_of
 
 SMALL = {
     "film.points": "17",
     "surface_1.correlation_length": "32 um",
     "surface_2.correlation_length": "32 um",
-    "film.model": "auto",
+    "film.model": "regression",
+    "film.correction": "blocks",
     "control.accuracy": "10 %",
 }
 OFF = {
@@ -42,7 +47,7 @@ def blocks(monkeypatch: pytest.MonkeyPatch) -> list[OperatingPoint]:
         sure = dict.fromkeys(("error_friction", "error_film", "error_load_ratio"), 0.001)
         return state, replace(fast, **off, **sure, range_flags=0, blocks_mixed=fast.blocks_mixed + 1.0)
 
-    monkeypatch.setattr(auto.deterministic, "advance", block)
+    monkeypatch.setattr(by_blocks.deterministic, "advance", block)
     return solved
 
 
@@ -89,7 +94,7 @@ def test_a_block_corrects_the_place_and_narrows_its_errors(blocks: list[Operatin
 
 
 def test_what_follows_from_friction_and_load_share_is_corrected_with_them(blocks: list[OperatingPoint]) -> None:
-    """Solids press as hard as before on another area; forces, heat and the hottest spot's rise follow friction."""
+    """Solids press as hard as before on another area and keep their law; heat and temperatures follow friction."""
     scene = scene_of(heat__bulk__model="inputs")
     op = replace(scene.operation.point, spin=5.0, body_temperature_1=357.15, body_temperature_2=353.15)
     out, quick = (advance(each, op, initial_state(each), 0.0)[1] for each in (scene, scene.at_level("regression")))
@@ -103,7 +108,9 @@ def test_what_follows_from_friction_and_load_share_is_corrected_with_them(blocks
     assert friction > 1.02
     assert ratio("contact_area_ratio") == approx(share)
     assert ratio("contact_temperature_max", beside=357.15) == approx(friction)
-    forces = ("friction_solid", "friction_fluid", "spin_torque", "dfriction_dspeed_1", "dfriction_dload")
+    assert ratio("friction_solid") == approx(share)
+    assert ratio("flash_temperature_rise") == approx(friction)
+    forces = ("friction_force", "spin_torque", "dfriction_dspeed_1", "dfriction_dload")
     for name in (*forces, "power_loss", "heat_flow_1", "heat_flow_2"):
         assert ratio(name) == approx(friction), name
 
@@ -141,14 +148,22 @@ def test_a_scene_that_asks_for_no_accuracy_gets_ten_percent(blocks: list[Operati
     assert len(blocks) == 1
 
 
-@pytest.mark.parametrize("ratio", [0.2, 0.8])
-def test_wear_is_as_unsure_as_the_corrected_share_that_makes_it(ratio: float) -> None:
-    """Wear is in proportion to the load on the solids: at either end of what that may be it is covered, barely."""
-    raw, raw_error, error = 0.4, 0.2, 0.05
-    stated = wear_error(raw_error / raw, raw_error, raw, error, ratio)
-    for true in (ratio - error, ratio + error):
-        assert abs(true / ratio - 1.0) == approx(stated)
-    assert wear_error(0.1, raw_error, raw, 10.0 * raw_error, ratio) == 0.1
+@pytest.mark.parametrize("deviation", [Deviation(1.1, 0.8, 0.9), Deviation(0.9, 1.2, 0.3), Deviation(0.3, 1.0, 1.0)])
+def test_what_follows_from_friction_film_and_load_ratio_moves_with_them(deviation: Deviation) -> None:
+    scene = scene_of().at_level("regression")
+    case = Case.bind(scene, scene.operation.point)
+    contact = evaluate(case, tribofilms_of(means_of(scene, initial_state(scene))))
+    better, bulk = moved(contact, deviation, max(case.op.bodies)), max(case.op.bodies)
+    force = deviation.friction * (contact.solid + contact.fluid)
+    assert better.solid + better.fluid == approx(force)
+    assert better.power == approx(abs(force * case.op.sliding_speed))  # what friction does is heat, and all of it
+    assert (better.hottest - bulk) / (contact.hottest - bulk) == approx(deviation.friction)
+    assert better.rise / contact.rise == approx(deviation.friction)
+    assert better.area_ratio / better.load_ratio == approx(contact.area_ratio / contact.load_ratio)
+    coefficient = contact.solid / (contact.load_ratio * case.op.load)
+    lawful = coefficient * deviation.load_ratio * case.op.load
+    assert better.solid == approx(lawful if abs(lawful) < abs(force) else force)  # that of its law, or all there is
+    assert better.fluid_shear * contact.fluid == approx(contact.fluid_shear * better.fluid)
 
 
 def test_near_a_block_no_other_is_solved_and_far_from_it_one_is(blocks: list[OperatingPoint]) -> None:
@@ -177,7 +192,7 @@ def test_a_block_that_fails_is_not_tried_again_and_changes_nothing(
             raise ConvergenceError("none")
         return state, Outputs(friction_coefficient=1.0, h_c=1e-6, contact_load_ratio=1.0, range_flags=int(flag))
 
-    monkeypatch.setattr(auto.deterministic, "advance", fails)
+    monkeypatch.setattr(by_blocks.deterministic, "advance", fails)
     scene = scene_of()
     state, out = led(scene, 3)
     _, quick = led(scene.at_level("regression"), 3)
@@ -212,7 +227,7 @@ def test_a_step_leaves_its_state_as_it_was(blocks: list[OperatingPoint]) -> None
 
 
 def test_no_more_blocks_than_a_state_may_keep(blocks: list[OperatingPoint], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(auto, "MOST", 2)
+    monkeypatch.setattr(by_blocks, "MOST", 2)
     scene, state = scene_of(control__accuracy="1 %"), None
     state = initial_state(scene)
     for speed in (0.02, 0.2, 1.0, 4.0):

@@ -5,7 +5,7 @@ import pytest
 from comparison import approx
 
 from contact_core import Scene
-from contact_core.correction import (
+from contact_core.corrections.kriging import (
     CORRECTED,
     CORRELATIONS,
     NO_KNOTS,

@@ -11,11 +11,11 @@ from comparison import approx
 from mapped_scene import NOISE, chart, drawn, histories, knots, mapped_scene, scene_of
 
 from contact_core import Error, OperatingPoint, Outputs, RangeFlag, Scene, advance, initial_state, uncertainty
+from contact_core.corrections.fitting import Rule, design, left_out, predicted, spread_at, widths_at
+from contact_core.corrections.knot import _knot, contact_of, samples_of
+from contact_core.corrections.map import Map, digest_of, read, shipped_maps
+from contact_core.corrections.query import half_widths_of, here, leverage, told, total, trusted
 from contact_core.errors import SceneError
-from contact_core.mapped.fitting import Rule, design, left_out, predicted, spread_at, widths_at
-from contact_core.mapped.knot import _knot, contact_of, samples_of
-from contact_core.mapped.map import Map, digest_of, read, shipped_maps
-from contact_core.mapped.query import half_widths_of, here, leverage, told, total, trusted
 from contact_core.scene import Case
 from contact_core.state import changed
 

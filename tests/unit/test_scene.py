@@ -357,3 +357,16 @@ def test_a_name_that_no_file_can_have_is_refused(name):
 def test_a_correlation_length_too_long_for_the_domain_is_refused():
     with pytest.raises(SceneError, match=r"surface_1\.correlation_length = 0\.001 m is too long for film\.domain"):
         Scene.from_toml("mtm_zddp", {"surface_1.correlation_length": "1 mm"})
+
+
+@pytest.mark.parametrize(("former", "correction"), [("auto", "blocks"), ("map", "map")])
+def test_a_former_model_of_the_film_is_read_as_a_correction_with_a_note(
+    former: str, correction: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    asked = Scene.from_toml("mtm_zddp", {"film.model": former})
+    table = asked.to_dict()
+    table["film"] = {key: value for key, value in table["film"].items() if key != "correction"} | {"model": former}
+    given = Scene.from_dict(table)
+    assert asked == given == Scene.from_toml("mtm_zddp").at_level(asked.film.fidelity)
+    assert (asked.film.name, asked.to_dict()["film"]["correction"]) == ("regression", correction)
+    assert caplog.text.count(f"film.model = '{former}' is film.model = 'regression' with film.correction") == 2

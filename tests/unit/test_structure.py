@@ -170,7 +170,6 @@ def test_nothing_asks_for_the_class_or_the_name_of_a_geometry_a_film_or_a_law() 
         "laws": "laws",
         "deterministic": "film",
         "regression": "film",
-        "mapped": "film",
     }
     classes = {
         "shapes": {name for name in shapes.__all__ if name[0].isupper()},

@@ -65,7 +65,7 @@ def data(scene: Scene, flavour: Flavour) -> Iterator[str]:
 
 def _at_level(scene: Scene, flavour: Flavour) -> str:
     """Return the end of a sentence on the level of the FMU, and whether it can be changed."""
-    level = f"the {scene.film.name} level: {LEVELS[scene.film.name].summary(scene)}"
+    level = f"the {scene.film.fidelity} level: {LEVELS[scene.film.fidelity].summary(scene)}"
     if flavour == "native":
         return f"has {level}"
     return (
@@ -82,7 +82,7 @@ def _given(surface: Surface | SelfAffine) -> str:
 def _face(scene: Scene) -> Iterator[tuple[str, str]]:
     if scene.geometry.face_width is not None:
         yield "face width, which load and outputs refer to", number(1e3 * scene.geometry.face_width, "mm")
-        yield from LEVELS[scene.film.name].size(scene)
+        yield from LEVELS[scene.film.fidelity].size(scene)
 
 
 def signs(scene: Scene) -> Iterator[str]:
@@ -102,7 +102,7 @@ def signs(scene: Scene) -> Iterator[str]:
             ),
             f"power_loss = −friction_force (speed_1 − speed_2){' − spin_torque spin' if spins else ''}. It is never "
             "negative and flows into the bodies: heat_flow_1 + heat_flow_2.",
-            LEVELS[scene.film.name].derivatives,
+            LEVELS[scene.film.fidelity].derivatives,
             "A force −rolling_resistance acts on each surface along +x in addition to friction_force; power_loss does "
             "not include its power.",
         )
@@ -139,7 +139,7 @@ def limits(scene: Scene) -> Iterator[tuple[str, str, str]]:
     hardest = load * (scene.plasticity.hardness / hertz.pressure_max) ** power
     yield "load", f"below {number(hardest, 'N')}", "there the Hertz pressure of the smooth bodies reaches the hardness"
     yield from _smooth_film(scene)
-    yield from LEVELS[scene.film.name].limits(scene)
+    yield from LEVELS[scene.film.fidelity].limits(scene)
     for i, surface in ((1, scene.surface_1), (2, scene.surface_2)):
         if not surface.smooth:
             nodes = number(surface.length / scene.film.spacing)
@@ -179,10 +179,10 @@ def errors(scene: Scene) -> Iterator[str]:
     yield paragraph(
         "error_friction, error_rolling, error_film, error_tribofilm_1 and _2 and error_wear are half widths of 95 % "
         "intervals, relative; "
-        "error_load_ratio is that of contact_load_ratio, absolute. " + LEVELS[scene.film.name].errors
+        "error_load_ratio is that of contact_load_ratio, absolute. " + LEVELS[scene.film.fidelity].errors
     )
     yield paragraph("Measured errors, and the command of the repository that measures them:")
-    for found in measured.ERRORS[_MEASURED.get(scene.film.name, scene.film.name)]:
+    for found in measured.ERRORS[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)]:
         yield _measured(found)
 
 
@@ -219,5 +219,5 @@ def steps(scene: Scene) -> Iterator[str]:
         "another model, one of the two lags by a step; choose h so short that the inputs change little in it. Steps "
         "may differ in length; any length is allowed, zero too."
     )
-    yield paragraph(LEVELS[scene.film.name].steps(scene))
-    yield _measured(measured.COSTS[_MEASURED.get(scene.film.name, scene.film.name)])
+    yield paragraph(LEVELS[scene.film.fidelity].steps(scene))
+    yield _measured(measured.COSTS[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)])

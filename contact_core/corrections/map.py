@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import SceneError
-from ..film import Mapped
-from ..film.mapped import MAP_SUFFIX
+from ..film.regression import MAP_SUFFIX, map_file
 from ..scene import Scene
 
 Numbers = tuple[float, ...]
@@ -91,9 +90,9 @@ def _frozen(value: Any) -> Any:
 
 def digest_of(scene: Scene) -> str:
     """Return the fingerprint of what a map of a scene depends on: all but its duty, control and name."""
-    table = scene.at_level(Mapped.name).to_dict()
+    table = scene.at_level("map").to_dict()
     parts = {key: value for key, value in table.items() if key not in _APART}
-    parts["film"] = {key: value for key, value in table["film"].items() if key not in ("model", "file")}
+    parts["film"] = {key: value for key, value in table["film"].items() if key not in ("model", "correction", "file")}
     parts["tribofilm"] = {key: value for key, value in table["tribofilm"].items() if key != "beyond_fit"}
     for surface in (parts["surface_1"], parts["surface_2"]):
         surface.get("heights", {}).pop("file", None)  # wherever they lie
@@ -107,8 +106,8 @@ def map_of(scene: Scene) -> Map:
     """
     kept: Map | None = vars(scene).get("_map")
     if kept is None:
-        assert isinstance(scene.film, Mapped)
-        kept = checked(scene, read(scene.film.file or scene.name), scene.film.file or scene.name)
+        file = map_file(scene.film) or scene.name
+        kept = checked(scene, read(file), file)
         vars(scene)["_map"] = kept
     return kept
 

@@ -21,7 +21,7 @@ import numpy as np
 import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
 
-from .scene import Scene
+from ..scene import Scene
 
 Array = NDArray[np.float64]
 

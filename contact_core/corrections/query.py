@@ -8,12 +8,12 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
-from ..amended import amended, exact
 from ..regression.contact import MeanContact, Stated, evaluate
 from ..regression.outputs import half_widths
 from ..regression.surfaces import Tribofilms
 from ..scene import Case
 from .map import STEEPEST, Map
+from .moved import Deviation, exact, moved
 
 Three = tuple[float, float, float]
 Four = tuple[float, float, float, float]
@@ -30,14 +30,6 @@ class Here(NamedTuple):
     slides: float  # part of it that friction has: 1 from the least sliding of the knots on, 0 without sliding
     scaled: list[float]  # 1, and its coordinates from -1 to 1
     terms: list[float]  # of the polynomials
-
-
-class Told(NamedTuple):
-    """What a map says of a contact."""
-
-    friction: float  # factor on friction
-    film: float  # factor on h_c
-    load_ratio: float  # contact_load_ratio
 
 
 def coordinates(case: Case, contact: MeanContact) -> tuple[float, ...]:
@@ -125,11 +117,11 @@ def here(chart: Map, case: Case, contact: MeanContact) -> Here:
     return Here(trust, min(slip / chart.least_slip, 1.0), scaled, terms(chart, scaled))
 
 
-def told(chart: Map, place: Here, load_ratio: float) -> Told:
+def told(chart: Map, place: Here, load_ratio: float) -> Deviation:
     """Return what a map says of a contact of a contact_load_ratio by the regression level."""
     film = math.exp(place.trust * bounded(total(chart.weights[1], place.terms)))
     odds = math.exp(place.trust * bounded(total(chart.weights[2], place.terms)))
-    return Told(friction_factor(chart, place), film, odds * load_ratio / (1.0 + (odds - 1.0) * load_ratio))
+    return Deviation(friction_factor(chart, place), film, odds * load_ratio / (1.0 + (odds - 1.0) * load_ratio))
 
 
 def friction_factor(chart: Map, place: Here) -> float:
@@ -172,7 +164,7 @@ def corrected(chart: Map, case: Case, contact: MeanContact) -> MeanContact:
         return contact._replace(stated=Stated(*own, 1.0))
     place = here(chart, case, contact)
     found = told(chart, place, contact.load_ratio)
-    better = amended(contact, found.friction, found.film * contact.gap, found.load_ratio, max(case.op.bodies))
+    better = moved(contact, found, max(case.op.bodies))
     return better._replace(stated=Stated(*half_widths_of(chart, place, own), place.trust * place.slides))
 
 

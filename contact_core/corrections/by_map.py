@@ -1,10 +1,10 @@
-"""Steps of the level `map`: those of the regression level, each contact corrected by the map of the scene."""
+"""Steps of the regression level, each contact corrected by the map of the scene."""
 
 from .. import regression
 from ..regression.contact import MeanContact, evaluate
 from ..regression.surfaces import Tribofilms
-from ..scene import Case, Scene
-from ..state import ContactState, Error, Outputs, changed
+from ..scene import Case
+from ..state import ContactState, Outputs, changed
 from .map import map_of
 from .query import corrected, slopes
 
@@ -28,13 +28,3 @@ def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, O
         dfriction_dtemperature=by_temperature,
     )
     return changed(after, outputs=outputs), outputs
-
-
-def warm_up(case: Case, state: ContactState) -> None:
-    """Load what the first steps need."""
-    regression.warm_up(case, state)
-
-
-def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
-    """Return the errors of the outputs by name, each in the unit of its output; all by curves and map."""
-    return regression.errors_of(scene, state)

@@ -1,10 +1,9 @@
-"""The level `auto`: the regression level, corrected by deterministic blocks where its errors exceed the accuracy.
+"""The regression level corrected by deterministic blocks where its errors exceed the accuracy.
 
 A step is that of the regression level. If its friction or film is less sure at the end than `control.accuracy` (10 %
 where a scene asks for none), the contact is solved there for one block on patches brought up to date, the state keeps
-what it deviates by (`contact_core.correction`), and the step is taken again from its beginning. Friction, film, W_c and
-what follows from them, wear and exposure, are corrected from then on. A place near one that is solved is not solved
-again: what is left of the error is stated, and `RangeFlag.UNSURE` raised.
+what it deviates by (`kriging`), and the step is taken again from its beginning. A place near one that is solved is not
+solved again: what is left of the error is stated, and `RangeFlag.UNSURE` raised.
 """
 
 from typing import Any
@@ -12,26 +11,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import deterministic, regression
-from .amended import amended, kept, wear_error
-from .correction import (
-    ABSOLUTE,
-    CORRECTED,
-    CORRELATIONS,
-    Conditioned,
-    Conditioner,
-    Knots,
-    Place,
-    knots,
-    nearness,
-    place,
-)
-from .errors import ContactError
-from .regression.contact import MeanContact, evaluate
-from .regression.outputs import half_widths
-from .regression.surfaces import Tribofilms
-from .scene import Case, Scene
-from .state import ContactState, Error, Outputs, RangeFlag, Solved, changed, flag_of_errors
+from .. import deterministic, regression
+from ..errors import ContactError
+from ..regression.contact import MeanContact, Stated, evaluate
+from ..regression.outputs import half_widths
+from ..regression.surfaces import Tribofilms
+from ..scene import Case
+from ..state import ContactState, Outputs, RangeFlag, Solved, changed, flag_of_errors
+from .kriging import ABSOLUTE, CORRECTED, CORRELATIONS, Conditioned, Conditioner, Knots, Place, knots, nearness, place
+from .moved import Deviation, exact, moved
 
 ACCURACY = 0.1  # of a scene that asks for none
 MOST = 64  # blocks that a state keeps
@@ -51,19 +39,8 @@ def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, O
         state = changed(state, solved=solved, outputs=changed(state.outputs, **counted))
         corrector = _Corrector(case, solved)
         after, outputs = regression.advance(case, state, dt, corrector.contact)
-    outputs = corrector.stated(outputs)
+    outputs = corrector.flagged(outputs)
     return changed(after, outputs=outputs), outputs
-
-
-def warm_up(case: Case, state: ContactState) -> None:
-    """Load what the first steps of both levels need."""
-    regression.warm_up(case, state)
-    deterministic.warm_up(_deep(case), state)
-
-
-def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
-    """Return the errors of the outputs by name, each in the unit of its output."""
-    return regression.errors_of(scene, state)
 
 
 class _Corrector:
@@ -87,7 +64,7 @@ class _Corrector:
         """Return a contact of the regression level, corrected; the same one if nothing is known."""
         errors, force = half_widths(case, contact), contact.solid + contact.fluid
         self.raw = {}
-        if kept(case, contact):
+        if force == 0.0 or exact(case, contact):
             return contact
         self.raw = errors | {
             "friction_coefficient": abs(force) / case.op.load,
@@ -101,13 +78,12 @@ class _Corrector:
         if self._conditioner is None:
             return contact
         found = self._conditioner.at(_OWN, np.array([self.place], np.float64))
-        told = Conditioned(found.mean[0], found.left[0]).of(self.raw)
-        self.told = self.raw | {name: float(value) for name, value in told.items()}
-        return self._amended(contact, max(case.op.bodies))
-
-    def _amended(self, contact: MeanContact, bulk: float) -> MeanContact:
-        friction = self.told["friction_coefficient"] / self.raw["friction_coefficient"]
-        return amended(contact, friction, self.told["h_c"], self.told[ABSOLUTE], bulk)
+        values = Conditioned(found.mean[0], found.left[0]).of(self.raw)
+        self.told = self.raw | {name: float(value) for name, value in values.items()}
+        friction, film = (self.told[name] / self.raw[name] for name in ("friction_coefficient", "h_c"))
+        better = moved(contact, Deviation(friction, film, self.told[ABSOLUTE]), max(case.op.bodies))
+        wide, thick, carried = (self.told[error] for error in CORRECTED.values())
+        return better._replace(stated=Stated(wide, thick, carried, trust=1.0))
 
     @property
     def asks(self) -> bool:
@@ -118,18 +94,12 @@ class _Corrector:
         near = nearness(CORRELATIONS["friction_coefficient"], here, self.rows[:, :_PLACE])
         return bool(np.isfinite(here).all() and not (near > _NEAR).any())
 
-    def stated(self, outputs: Outputs) -> Outputs:
-        """Return the outputs with the errors that are left."""
+    def flagged(self, outputs: Outputs) -> Outputs:
+        """Return the outputs, flagged as unsure where the errors that are left are above the accuracy."""
         if not self.raw:
             return outputs
-        errors = {name: self.told[name] for name in CORRECTED.values()}
-        if self._conditioner is not None:
-            known = self.raw[CORRECTED[ABSOLUTE]], self.raw[ABSOLUTE]
-            errors["error_wear"] = wear_error(
-                outputs.error_wear, *known, errors[CORRECTED[ABSOLUTE]], self.told[ABSOLUTE]
-            )
-        flag = flag_of_errors({name: errors[name] for name in self._flagged}, self._accuracy)
-        return changed(outputs, **errors, range_flags=outputs.range_flags & ~int(RangeFlag.UNSURE) | int(flag))
+        flag = flag_of_errors({name: self.told[name] for name in self._flagged}, self._accuracy)
+        return changed(outputs, range_flags=outputs.range_flags & ~int(RangeFlag.UNSURE) | int(flag))
 
 
 _OWN = np.array([""], object)  # all solutions of a state are of its one pair of surfaces
@@ -151,17 +121,17 @@ def _block(case: Case, state: ContactState, corrector: _Corrector) -> tuple[Solv
     One that fails or has not converged tells nothing but that its place is tried.
     """
     try:
-        found: Outputs | None = deterministic.advance(_deep(case), state, 0.0)[1]
+        found: Outputs | None = deterministic.advance(deep(case), state, 0.0)[1]
     except ContactError:
         found = None
-    deep = vars(found) if found is not None and not RangeFlag(found.range_flags) & _UNSURE else None
-    knot = knots([""], [corrector.place], [corrector.raw], [deep])
+    solved = vars(found) if found is not None and not RangeFlag(found.range_flags) & _UNSURE else None
+    knot = knots([""], [corrector.place], [corrector.raw], [solved])
     row: NDArray[np.float64] = np.concatenate([knot.places, knot.off, knot.own], axis=1)
     names = ("blocks_dry", "blocks_mixed", "blocks_fallback")
     counted = {name: getattr(found, name) for name in names} if found is not None else {}
     return Solved(np.vstack([corrector.rows, row])), counted
 
 
-def _deep(case: Case) -> Case:
+def deep(case: Case) -> Case:
     """Return the case at the deterministic level."""
     return Case(case.scene.at_level("deterministic"), case.op)

@@ -13,13 +13,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import deterministic, regression
-from ..correction import CORRECTED
 from ..errors import ContactError
 from ..regression.contact import MeanContact, evaluate
 from ..regression.surfaces import Means, tribofilms_of
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState, Mean, RangeFlag, initial_state
 from .fitting import Samples, TooFewError
+from .kriging import CORRECTED
 from .query import coordinates
 
 UNSURE = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK | RangeFlag.DOMAIN_EDGE  # of blocks that judge nothing
