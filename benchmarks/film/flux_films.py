@@ -17,8 +17,9 @@ from contact_core.shapes import Line, Point, Roller
 
 FLOOR = 1e-11  # m: none
 LENGTH, PROFILE = 2e-3, Logarithmic(3e-6)  # of the roller
-_TOLERANCE, _TOLERANCE_OF_LINES = 3e-4, 1e-5
+TOLERANCE, _TOLERANCE_OF_LINES = 3e-4, 1e-5
 _AROUND = 6  # nodes to either side that the splines go through
+Place = tuple[Instant, Grid]
 
 
 @dataclass(frozen=True)
@@ -27,21 +28,17 @@ class Film:
 
     central: float
     least: float  # of the nodes
-    between: float  # of splines through the nodes around that one
     converged: bool
 
 
-def film(now: Instant, grid: Grid, flux: str, tolerance: float = _TOLERANCE) -> Film:
+def film(now: Instant, grid: Grid, flux: str, tolerance: float = TOLERANCE) -> Film:
     """Return the smooth film of an instant."""
     found = solve_film(now, grid, Settings(FLOOR, tolerance, 2000, "pyfftw", fitted=flux == "fitted"))
-    gap = found.gap
-    return Film(at_centre(grid, gap), float(gap.min()), least_between(gap), found.converged)
+    return Film(at_centre(grid, found.gap), float(found.gap.min()), found.converged)
 
 
 def least_between(gap: np.ndarray) -> float:
-    """Return the smallest value of cubic splines through the nodes around the smallest one; on one row that node's."""
-    if min(gap.shape) < 2 * _AROUND + 1:
-        return float(gap.min())
+    """Return the smallest value of cubic splines through the nodes around the smallest one."""
     j, i = (
         int(np.clip(k, _AROUND, n - 1 - _AROUND))
         for k, n in zip(np.unravel_index(gap.argmin(), gap.shape), gap.shape, strict=True)
@@ -51,24 +48,34 @@ def least_between(gap: np.ndarray) -> float:
     return float(RectBivariateSpline(nodes, nodes, near)(fine, fine).min())
 
 
-def scene_film(name: str, nodes: int, flux: str) -> Film:
-    """Return the film of a scene's smooth bodies on its own domain."""
+def scene_at(name: str, nodes: int) -> Place:
+    """Return a scene's smooth bodies on its own domain."""
     scene = Scene.from_toml(name, {"film.points": str(nodes)})
     case = Case.bind(scene, scene.operation.point)
     grid = scene.grid(scene.rows)
     bare = instant_of(case, np.zeros(grid.shape), np.full(grid.shape, 1e11))
-    return film(replace(bare, hardness=1e11, microroughness=None), grid, flux)
+    return replace(bare, hardness=1e11, microroughness=None), grid
 
 
-def point_film(load: float, lubricant: float, ratio: float, nodes: int, flux: str) -> Film:
-    """Return the film of an elliptical contact on a grid that fits it, for Moes' numbers on R_x.
+def scene_film(name: str, nodes: int, flux: str) -> Film:
+    """Return the film of a scene's smooth bodies on its own domain."""
+    return film(*scene_at(name, nodes), flux)
+
+
+def point_at(load: float, lubricant: float, ratio: float, nodes: int) -> Place:
+    """Return an elliptical contact on a grid that fits it, for Moes' numbers on R_x.
 
     ratio: R_y / R_x; nodes: along the shorter side.
     """
     case = MoesCase(load, lubricant, ratio=ratio)
     extent = Extent.of(Point(case.radius, ratio * case.radius), case.newtons, case.modulus, case.smooth.film)
     grid = extent.grid(*extent.shape(shorter=nodes))
-    return film(instant_of_call(case.arguments(), np.zeros(grid.shape)), grid, flux)
+    return instant_of_call(case.arguments(), np.zeros(grid.shape)), grid
+
+
+def point_film(load: float, lubricant: float, ratio: float, nodes: int, flux: str) -> Film:
+    """Return the film of that contact."""
+    return film(*point_at(load, lubricant, ratio, nodes), flux)
 
 
 def line_film(load: float, lubricant: float, nodes: int, flux: str) -> Film:

@@ -48,7 +48,7 @@ def test_errors_of_a_coarse_grid_cover_a_fine_one_and_a_tenth_of_them_would_not(
 
 
 def test_the_error_of_a_smooth_film_covers_the_shipped_scenes_and_a_tenth_of_it_would_not():
-    """Central films on the scenes' grids against 513 nodes: docs/measured/film/flux.md."""
+    """Central films on the scenes' grids against 1025 nodes: docs/measured/film/flux.md."""
     found = {1.02: 0.027, 2.03: 0.00097, 0.68: 0.176, 1.35: 0.005}  # by nodes across the inlet
     assert all(true <= inlet_error(nodes) for nodes, true in found.items())
     assert any(true > 0.1 * inlet_error(nodes) for nodes, true in found.items())
