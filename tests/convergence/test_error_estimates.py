@@ -10,7 +10,7 @@ from comparison import approx
 from contact_core.calls.dry_contact import dry_contact
 from contact_core.calls.line_contact import line_contact
 from contact_core.calls.point_contact import point_contact
-from contact_core.film.estimate import stated_errors
+from contact_core.film.estimate import between_nodes, stated_errors
 from contact_core.reference import hertz_point
 
 MODULUS, RADIUS = 230.47e9, 10e-3
@@ -51,6 +51,19 @@ def test_grids_that_agree_leave_what_the_stopping_rule_does():
     ]
     assert stated_errors(alike, 1e-3) == approx({"h_min": 2e-3, "contact_area_ratio": 0.1005})
     assert stated_errors(alike[:1], 1e-3)["h_min"] == np.inf
+
+
+def test_nodes_miss_the_bottom_of_a_valley_by_at_most_twice_what_is_stated_and_by_more_than_a_tenth_of_it():
+    """Parabolas whose bottom lies anywhere between the nodes."""
+    draw, ratios = np.random.default_rng(2), []
+    for _ in range(500):
+        (narrow, wide), (x, y) = draw.uniform(0.01, 1.0, 2), draw.uniform(-0.5, 0.5, 2)
+        gap = 1.0 + narrow * (np.arange(-4, 5)[:, None] - y) ** 2 + wide * (np.arange(-4, 5) - x) ** 2
+        ratios.append((gap.min() - 1.0) / between_nodes(gap))
+    assert max(ratios) <= 2.0
+    assert np.mean(np.array(ratios) <= 1.0) > 0.7
+    assert np.mean(np.array(ratios) <= 0.1) < 0.1
+    assert between_nodes(np.arange(5.0)[None]) == 0.0  # a single row
 
 
 def point(number, nodes):
