@@ -3,6 +3,7 @@
 Each package imports only from those below it:
 
     cli/        the command line, a file per command
+    runs/       runs of contacts, machines and other systems: simulated, checked, judged, one call each
     html_report/ results as HTML pages: of one run, and of several beside each other
     check/      checks any FMU: a verdict per rule
     machines/   kinds of machines, a folder each: ball on disc, ball bearing, gear pair, cam and follower

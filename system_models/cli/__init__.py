@@ -23,9 +23,9 @@
     completion  completion: a script for the shell
     pages       names of the pages of the documentation, the one that explains an error
     scenes      the scene and duty that commands are given
-    simulation  simulates a system with a checkpoint
-    progress    progress bar, how to continue an unfinished run
-    overwriting  results of other runs are not replaced without a word
+    listener    prints what runs tell
+    progress    bars that say how far a long command is
+    overwriting  --force, and files that are there already
     alive       keeps the bar moving while one solution takes long and kernels compile
     console     notes, the folder of the results, --set
 

@@ -1,7 +1,6 @@
 """Parts that the commands share: notes on stderr, the folder of the results, --set, and empty options."""
 
 import argparse
-import os
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,6 +8,7 @@ from pathlib import Path
 from contact_core.errors import ContactError
 
 from ..fmu.printable import printable
+from ..store.folders import made
 
 
 def note(sentence: str) -> None:
@@ -55,11 +55,9 @@ def _assignment(text: str) -> tuple[str, str]:
 
 def output_folder(out: str | None, name: str) -> Path:
     """Return the folder of --out, or results/NAME; it is made before the run, so that no result is lost."""
-    folder = Path(out or Path("results") / name)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ContactError(f"The folder '{folder}' cannot be made: {error.strerror}. Use another --out.") from None
-    if not os.access(folder, os.W_OK):
-        raise ContactError(f"The folder '{folder}' cannot be written to. Use another --out.")
-    return folder
+    return made(folder_of(out, name))
+
+
+def folder_of(out: str | None, name: str) -> Path:
+    """Return the folder of --out, or results/NAME."""
+    return Path(out or Path("results") / name)

@@ -9,12 +9,12 @@ from contact_core.errors import ContactError
 
 from .console import add_settings, note, output_folder
 from .overwriting import add_force, refuse_existing
-from .simulation import EXIT_CODE, carry_out
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from ..master import System
+    from ..runs import Finished
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -43,6 +43,8 @@ def run(arguments: argparse.Namespace) -> int:
     Raises ContactError with a sentence if it cannot be done.
     """
     from ..master.reading import read
+    from ..runs.job import carry_out
+    from .listener import CONSOLE
 
     system, settings = read(arguments.system, arguments.settings)
     if arguments.ssp:
@@ -57,7 +59,8 @@ def run(arguments: argparse.Namespace) -> int:
         names = ", ".join(left_out)
         note(f"Not recorded: {names}, which are no numbers, or too many. simulate.outputs can name texts.")
     folder = output_folder(arguments.out, arguments.system.stem)
-    return carry_out(system, settings, arguments.system.stem, folder, arguments.resume, arguments.force, _report)
+    given = {"resume": arguments.resume, "force": arguments.force, "listener": CONSOLE}
+    return carry_out(system, settings, arguments.system.stem, folder, _report, **given).exit_code
 
 
 def _export(system: "System", path: str, settings: Mapping[str, Any]) -> int:
@@ -70,15 +73,16 @@ def _export(system: "System", path: str, settings: Mapping[str, Any]) -> int:
     return 0
 
 
-def _report(dataset: "xr.Dataset", folder: Path) -> int:
-    """Print and write the result; return the exit code."""
+def _report(dataset: "xr.Dataset", folder: Path) -> "Finished":
+    """Print and write the result."""
     from ..run import cosim_report
+    from ..runs.job import EXIT_CODE, Finished
     from ..store import results
 
     print(cosim_report.table(dataset), "", cosim_report.costs(dataset), "", sep="\n")
     print(*cosim_report.closing_lines(dataset), *cosim_report.validity(dataset), sep="\n")
-    code = 1 if cosim_report.unreliable_steps(dataset) or dataset.attrs["invalid"] else 0
-    dataset = dataset.assign_attrs({EXIT_CODE: code})
+    wrong = bool(cosim_report.unreliable_steps(dataset) or dataset.attrs["invalid"])
+    dataset = dataset.assign_attrs({EXIT_CODE: int(wrong)})
     written = [*results.write(dataset, folder), cosim_report.write_overview(dataset, folder / "overview.png")]
     print(f"Written: {', '.join(map(str, written))}")
-    return code
+    return Finished(dataset, folder, not wrong, tuple(map(Path, written)))

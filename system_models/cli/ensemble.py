@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 from contact_core.errors import ContactError
 
 from .console import note, output_folder
-from .contact import introduce
+from .contact import about
 from .map import processes_of
-from .overwriting import ask_before
 from .scenes import ask_back, contact_of, folder_of_duty, settings_of, warn
 from .sweep import solved_with_bar
 
@@ -24,9 +23,12 @@ if TYPE_CHECKING:
 def run(arguments: argparse.Namespace, members: "Members") -> int:
     """Run the members of an ensemble, those kept from before apart; return the exit code."""
     from ..run.origin import attributes
+    from ..runs.contact import introduction
+    from ..runs.replacing import ask_before
     from ..store.checkpoint import alone
     from ..sweep.members import ATTRIBUTE, FILE, attribute
     from ..sweep.points import Task
+    from .listener import CONSOLE
 
     if arguments.fields is not None:
         picked = " ".join(f"{key}={value}" for key, value in members.settings[0])
@@ -40,9 +42,9 @@ def run(arguments: argparse.Namespace, members: "Members") -> int:
     points = output_folder(str(folder / FILE), "")
     task = Task(arguments.scene, tuple(settings.items()), folder_of_duty(arguments), points, arguments.force)
     with alone(folder):
-        ask_before(folder, {**attributes(scene, duty), ATTRIBUTE: attribute(members)}, arguments.force)
-        print(members.text)
-        introduce(scene, duty, arguments.scene, settings | dict(members.settings[0]))
+        ask_before(folder, {**attributes(scene, duty), ATTRIBUTE: attribute(members)}, arguments.force, CONSOLE)
+        lines = about(scene, arguments.scene, settings | dict(members.settings[0]))
+        CONSOLE.say(members.text, *introduction(scene, duty, lines))
         return _run_in(task, members, scene, duty, folder, processes)
 
 

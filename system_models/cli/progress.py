@@ -1,25 +1,16 @@
-"""What every long run says, of a contact or of coupled FMUs: how far it is, what it replaces, how to continue it."""
+"""Bars that say how far a long command is."""
 
 import logging
 import sys
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
-from contact_core.errors import ContactError, StateError
-
 from .alive import alive
-from .console import note
 
 _LEAST_SHARE = 0.025  # of the work; with less in the later half of the time no time left is estimated
 _APART = 1.01  # of two times that are kept: a run of any length keeps some hundreds
-
-
-def note_replaced(file: Path) -> None:
-    """Say that the checkpoint of an unfinished run will be lost."""
-    note(f"'{file}' of an unfinished run will be replaced; to continue from it, use --resume.")
 
 
 @contextmanager
@@ -103,22 +94,3 @@ class Pace:
         middle = bisect_right(self._times, now / 2.0) - 1
         gain = self._done[-1] - self._done[middle]
         return gain / (now - self._times[middle]) if now and gain >= self._least else 0.0
-
-
-@contextmanager
-def continued_by_resume(kept: Callable[[], Path | None]) -> Iterator[None]:
-    """Add to an interrupt or an error how to continue from the checkpoint that `kept` returns, if there is one then."""
-    try:
-        yield
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(_how_to_continue(kept())) from None
-    except StateError:
-        raise
-    except ContactError as error:
-        raise ContactError(f"{error} {_how_to_continue(kept())}".rstrip()) from error
-
-
-def _how_to_continue(file: Path | None) -> str:
-    if file is None:
-        return ""
-    return f"What was computed is kept in '{file}': the same command with --resume continues from there."

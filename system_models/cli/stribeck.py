@@ -13,7 +13,6 @@ from contact_core.scene import Scene, units
 
 from .console import output_folder
 from .map import processes_of
-from .overwriting import ask_before
 from .progress import counted
 from .scenes import add_scene, ask_back, contact, warn
 
@@ -55,7 +54,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Measure, print and write the curves; return the exit code."""
     from ..run.origin import attributes
     from ..run.stribeck import Curves, Plan
+    from ..runs.replacing import ask_before
     from ..store.checkpoint import alone
+    from .listener import CONSOLE
 
     scene, duty = contact(arguments)
     processes = _processes(arguments.processes, scene)
@@ -74,7 +75,7 @@ def run(arguments: argparse.Namespace) -> int:
     _introduce(scene, plan)
     curves = Curves(plan)
     with alone(folder):
-        ask_before(folder, attributes(scene, duty), arguments.force, "stribeck")
+        ask_before(folder, attributes(scene, duty), arguments.force, CONSOLE, "stribeck")
         try:
             _sweep(scene, duty, curves, processes)
         except KeyboardInterrupt:

@@ -8,7 +8,7 @@ from contact_core.errors import ContactError
 
 from .console import add_settings, note, output_folder
 from .map import executor_arguments, processes_of
-from .overwriting import add_force, ask_before
+from .overwriting import add_force
 from .progress import counted
 from .scenes import refuse_machine
 
@@ -50,9 +50,11 @@ def run(arguments: argparse.Namespace) -> int:
     """Run, print and write the sweep; return the exit code."""
     refuse_machine(arguments.scene)
     note(f"Loading '{arguments.scene}'.")
+    from ..runs.replacing import ask_before
     from ..store.checkpoint import alone
     from ..sweep.plan import plan_of
     from ..sweep.points import Task, origin_of
+    from .listener import CONSOLE
 
     plan = plan_of(arguments.vary, arguments.samples, arguments.method, arguments.seed)
     if plan.method == "indices" and plan.grid:
@@ -66,7 +68,7 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.scene, tuple(arguments.settings), duty, output_folder(str(folder / "points"), ""), arguments.force
     )
     with alone(folder):
-        ask_before(folder, origin_of(task, plan), arguments.force, "sweep")
+        ask_before(folder, origin_of(task, plan), arguments.force, CONSOLE, "sweep")
         outcomes = solved_with_bar(task, plan, processes_of(arguments.processes), arguments.executor)
         return _report(task, plan, outcomes, folder)
 

@@ -26,6 +26,7 @@ from system_models.machines.export import with_timetable
 from system_models.machines.files import shipped
 from system_models.master import System, export_ssp, simulate
 from system_models.parts.load_arm import LoadArm
+from system_models.runs import Finished
 from system_models.store import results
 from system_models.store.checkpoint import Checkpoint
 
@@ -51,6 +52,9 @@ FEW = {  # contacts
     "mtm_rig": {},
 }
 SHIPPED = [*FEW, *(pytest.param(name, marks=pytest.mark.long) for name in shipped() if name not in FEW)]
+
+
+DONE = Finished(xr.Dataset(), Path(), reliable=True)  # of a run in which nothing is simulated
 
 
 @pytest.fixture
@@ -107,8 +111,8 @@ def test_what_an_option_replaces_is_told(
     capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("system_models.cli.machine._run_in", lambda *_: 0)  # nothing is simulated
-    monkeypatch.setattr("system_models.cli.contact._run_in", lambda *_: 0)
+    monkeypatch.setattr("system_models.runs.run_machine", lambda *_, **__: DONE)
+    monkeypatch.setattr("system_models.runs.run_contact", lambda *_, **__: DONE)
     name = "mtm_rig" if key.startswith(("simulate", "duty", "contact")) else "mtm_zddp"
     Path("short.csv").write_text(LOADS if name == "mtm_rig" else "time [s],load [N]\n0,20\n60,30\n")
     given = {"hours": "1", "grid": "128", "accuracy": "5 %", "duty": "short.csv"}[option]
@@ -123,12 +127,12 @@ def test_rows_after_the_end_of_a_run_are_told(
     assert not capsys.readouterr().err
     tell_unreached([0.0, 60.0, 3600.0], 30.0)
     assert "The run ends at 30 s, the duty's last change is at 3600 s: 2 of its 3 rows" in capsys.readouterr().err
-    monkeypatch.setattr("system_models.cli.machine._run_in", lambda *_: 0)  # nothing is simulated
+    monkeypatch.setattr("system_models.runs.run_machine", lambda *_, **__: DONE)
     monkeypatch.chdir(tmp_path)
     Path("short.csv").write_text(SHORT)
     assert main(["run", "mtm_rig", "--duty", "short.csv", "--hours", "0.001"]) == 0
     assert "The run ends at 3.6 s, the duty's last change is at 4 s: 1 of its 5 rows" in capsys.readouterr().err
-    monkeypatch.setattr("system_models.cli.contact._run_in", lambda *_: 0)
+    monkeypatch.setattr("system_models.runs.run_contact", lambda *_, **__: DONE)
     Path("long.csv").write_text("time [h],load [N]\n0,20\n60,30\n70,20")
     assert main(["run", "mtm_zddp", "--duty", "long.csv"]) == 0
     assert "2 of its 3 rows are not reached" in capsys.readouterr().err

@@ -251,7 +251,7 @@ def test_a_run_that_continues_from_its_end_says_the_same_of_its_errors(
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
-        patch.setattr("system_models.cli.contact._report", stopped)  # all rows are there, the result is not
+        patch.setattr("system_models.runs.contact._Job.report", stopped)  # all rows are there, the result is not
         assert main(command) == 130
     capsys.readouterr()
     assert main(command) == 0
@@ -283,7 +283,7 @@ def test_a_finished_run_is_not_computed_again(
     assert main(command) == 0
     capsys.readouterr()
     with monkeypatch.context() as patch:
-        patch.setattr("system_models.cli.contact._simulate", None)
+        patch.setattr("system_models.runs.contact._Job.simulate", None)
         assert main(command) == 0
     assert "This run is finished" in capsys.readouterr().err
     assert main([*command, "--hours", "0.005"]) == 0

@@ -7,9 +7,11 @@ import pytest
 import xarray as xr
 
 from contact_core.errors import ContactError
-from system_models.cli.overwriting import ask_before
-from system_models.cli.simulation import EXIT_CODE, _finished
-from system_models.store.results import write, write_csv
+from system_models.cli.listener import CONSOLE
+from system_models.runs.job import EXIT_CODE, finished
+from system_models.runs.listener import QUIET
+from system_models.runs.replacing import ask_before
+from system_models.store.results import find, write, write_csv
 
 
 def result(scene: str) -> xr.Dataset:
@@ -29,16 +31,18 @@ def test_the_result_of_another_scene_is_replaced_by_force_alone(
 ) -> None:
     write(result("mine"), tmp_path)
     with pytest.raises(ContactError, match="is the result of 'mine', and this is 'other'"):
-        ask_before(tmp_path, {"scene": "other"}, force=False)
-    ask_before(tmp_path, {"scene": "other"}, force=True)
+        ask_before(tmp_path, {"scene": "other"}, force=False, listener=CONSOLE)
+    ask_before(tmp_path, {"scene": "other"}, force=True, listener=CONSOLE)
     assert "a result of 'mine', will be replaced" in capsys.readouterr().err
-    ask_before(tmp_path, {"scene": "mine"}, force=False)
+    ask_before(tmp_path, {"scene": "mine"}, force=False, listener=CONSOLE)
     assert not capsys.readouterr().err
 
 
 @pytest.mark.parametrize("code", [0, 1])
-def test_a_finished_run_ends_again_as_it_ended(code: int, tmp_path: Path) -> None:
+def test_afinished_run_ends_again_as_it_ended(code: int, tmp_path: Path) -> None:
     """`--resume` of a run whose steps have not converged does not call it right."""
     write(result("mine").assign_attrs({EXIT_CODE: code}), tmp_path)
-    assert _finished(tmp_path, {"scene": "mine"}) == code
-    assert _finished(tmp_path, {"scene": "other"}) is None
+    before = finished(find({"scene": "mine"}, tmp_path), tmp_path, QUIET)
+    assert before is not None
+    assert before.attrs[EXIT_CODE] == code
+    assert finished(find({"scene": "other"}, tmp_path), tmp_path, QUIET) is None
