@@ -9,7 +9,7 @@ import numpy as np
 
 from benchmarks.film.moving import SCENES, first_block, values
 from benchmarks.pages import Page
-from contact_core import Scene, initial_state
+from contact_core import Scene, advance, initial_state
 from contact_core.deterministic.accumulator import Accumulator
 from contact_core.deterministic.sampling import sample_mixed
 from contact_core.scene import Case
@@ -19,6 +19,7 @@ SEEDS = (None, 11, 12)
 TOLERANCES = ("3e-3", "1e-3")
 NAMES = ("W_c", "A_c", "friction", "h_c [nm]")
 BARS = (0.02, 0.02, 0.02, 0.03)
+SPEEDS = (0.2875, 0.2125), (0.3375, 0.1625), (0.15, 0.35), (0.0, 0.5), (0.5, 0.0)
 LAYERS = ("0 nm", "1 nm", "4 nm", "16 nm")  # rms of the asperities below the grid, on one body
 INSTANTS = 256  # consecutive ones
 APART = (1, 2, 4, 8, 16, 24)
@@ -83,6 +84,32 @@ def other_contacts(page: Page) -> None:
     page.verdict("speeds exchanged: W_c within 1 %", f"{100.0 * off:+.1f} %", bool(abs(off) <= 0.01))
 
 
+def sliding(page: Page) -> None:
+    """Add first blocks of bodies that slide past each other, and how much of the difference is stated."""
+    page.say(
+        "### Sliding\n\n`azam_case_a` on 65 nodes, its entrainment speed and other speeds of the bodies. Stated: half width of W_c at "
+        "one node a step."
+    )
+    page.header("speed_1 [m/s]", "speed_2 [m/s]", "step", *NAMES, "W_c stated")
+    worst, covered = 0.0, 0
+    for pair in SPEEDS:
+        given = {f"operation.speed_{body}": f"{speed:g} m/s" for body, speed in enumerate(pair, 1)}
+        rows = []
+        for step in STEPS:
+            changes = {"film.points": "65", "control.nodes_per_instant": f"{step:g}"} | given
+            scene = Scene.from_toml("azam_case_a", changes)
+            out = advance(scene, scene.operation.point, initial_state(scene), 0.0)[1]
+            found = out.contact_load_ratio, out.contact_area_ratio, out.friction_coefficient, 1e9 * out.h_c
+            rows.append((found[0], out.error_load_ratio))
+            page.row(*pair, step, *found, out.error_load_ratio)
+        worst = max(worst, abs(rows[0][0] / rows[-1][0] - 1.0))
+        covered += abs(rows[0][0] - rows[-1][0]) <= rows[0][1]
+    page.verdict("sliding: W_c within 2 % of the shortest step", f"{100.0 * worst:.0f} %", worst <= 0.02)
+    page.verdict(
+        "sliding: the difference within the stated error", f"{covered} of {len(SPEEDS)}", covered == len(SPEEDS)
+    )
+
+
 def alike(page: Page) -> None:
     """Add how much alike instants are over the way of the oil between them."""
     page.say(
@@ -108,6 +135,7 @@ def main() -> None:
     page = Page("film/time_step", "Moving rough contacts against the time step")
     steps(page)
     other_contacts(page)
+    sliding(page)
     alike(page)
     page.write()
 

@@ -18,6 +18,8 @@ from .oil_temperature import left_behind, sheared, solve_flow, warmed
 
 Array = NDArray[np.float64]
 
+AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
+
 
 @dataclass(frozen=True)
 class Transient:
@@ -167,6 +169,13 @@ def solve_instant(
         film=left_behind(case, now, film, found),
         **convergence,
     )
+
+
+def instant_time(case: Case) -> float:
+    """Return the time [s] from instant to instant: of oil, or of a body that runs far ahead of it, by so many nodes."""
+    entrained = abs(case.op.entrainment_speed)
+    leading = entrained if case.fastest <= AHEAD * entrained else case.fastest
+    return case.scene.control.nodes_per_instant * case.scene.film.spacing / leading
 
 
 def _pressed(case: Case, faced: FacingSurfaces) -> Instant:

@@ -19,7 +19,7 @@ from ..progress import tell
 from ..scene import Case, Scene
 from ..state import ContactState
 from .accumulator import Accumulator
-from .instant import Transient, solve_instant
+from .instant import AHEAD, Transient, instant_time, solve_instant
 from .subsurface import begins_anew, is_whole, of_a_pass, pass_goes_on, steps_of_a_pass
 from .transient import dry_instant, next_instant, rolled
 
@@ -27,7 +27,6 @@ from .transient import dry_instant, next_instant, rolled
 # proportion more where the faster body runs ahead of the oil
 _PASSAGE = 3.0
 _MOST_SETTLING = 400  # nodes of the way of what leads, the oil or the faster body
-_AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
 _ITERATIONS = 300  # at most, of one transient step; a warm one needs about 16, after a jump up to 200
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
 _CLEAR = 3.0  # formula film over rms roughness, from which on a dry contact is no start
@@ -123,13 +122,6 @@ def first_film(case: Case, state: ContactState) -> FilmState:
     return solve_instant(case, state, dry=True).film
 
 
-def instant_time(case: Case) -> float:
-    """Return the time [s] from instant to instant: of oil, or of a body that runs far ahead of it, by so many nodes."""
-    entrained = abs(case.op.entrainment_speed)
-    leading = entrained if case.fastest <= _AHEAD * entrained else case.fastest
-    return case.scene.control.nodes_per_instant * case.scene.film.spacing / leading
-
-
 def _instants(scene: Scene, nodes: float) -> int:
     """Return the instants in which the oil moves by so many nodes."""
     return math.ceil(nodes / scene.control.nodes_per_instant)
@@ -144,7 +136,7 @@ def settling_instants(case: Case) -> int:
     """Return the instants until the film has settled."""
     fastest, entrained = case.fastest, abs(case.op.entrainment_speed)
     across = math.ceil(_PASSAGE * case.hertz.a / case.scene.film.spacing)
-    if fastest > _AHEAD * entrained:
+    if fastest > AHEAD * entrained:
         across = min(math.ceil(across * fastest / entrained), _MOST_SETTLING) if entrained > 0.0 else _MOST_SETTLING
     return _instants(case.scene, across)
 

@@ -215,7 +215,7 @@ class Scaled:
             weight=weight,
             lumped=self.settings.lumped,
             conserving=conserving,
-            supply=now.supply / self.h_unit if conserving and now.supply is not None else None,
+            supply=None if now.supply is None else now.supply / self.h_unit,
             first=self.first,
             wrapped=self.grid.periodic,
             fitted=self.settings.fitted,

@@ -148,8 +148,8 @@ def test_instants_of_rough_bodies_close_where_asperities_below_the_grid_carry_mo
     assert min(share) > 0.7
 
 
-@pytest.mark.parametrize("supply", ["14 nm", "30 nm"])
-def test_a_starved_film_keeps_its_oil_in_a_march(supply):
+@pytest.mark.parametrize(("supply", "part"), [("3 nm", 0.05), ("14 nm", 0.1), ("30 nm", 0.2)])
+def test_a_starved_film_keeps_its_oil_in_a_march(supply, part):
     smooth = {f"surface_{body}.{key}": "0 m" for body in (1, 2) for key in ("rq", "microroughness.rms")}
     case = bound(
         smooth
@@ -160,7 +160,7 @@ def test_a_starved_film_keeps_its_oil_in_a_march(supply):
     _, fields = marched(case, state, 80)
     middle = steady.gap.shape[0] // 2
     assert fields.converged
-    assert fields.gap[middle, middle] == approx(steady.gap[middle, middle], rel=0.3)  # it swings where oil fills up
+    assert fields.gap[middle, middle] == approx(steady.gap[middle, middle], rel=part)  # it swings where oil fills up
 
 
 def test_a_node_half_way_to_the_next_stays_there_at_rest():

@@ -318,14 +318,16 @@ class Iteration:
 
     def kept(self, found: Solution) -> Solution:
         """Return a copy of an assessed solution that is independent of the scratch arrays."""
-        mass = self.mass.copy()
-        if self.problem.per_dt > 0.0:
+        q, mass = self.problem, self.mass.copy()
+        if q.per_dt > 0.0:
             # the residual of the mass balance goes into the history of the film: the next instant corrects it
-            missing = self._missing_mass() / self.problem.per_dt
-            mass += np.clip(missing, -_EMPTIEST * mass, _FULLEST * mass)
-            if self.problem.wrapped:
+            missing, most = self._missing_mass() / q.per_dt, _EMPTIEST * mass
+            if self.marching and q.supply is not None:  # it may be far thinner than the gap that it moves through
+                most = np.maximum(most, mass - np.maximum(q.mass_old, 0.0))
+            mass += np.clip(missing, -most, _FULLEST * mass)
+            if q.wrapped:
                 wrap(mass)
-        fluid = np.where(self.solid, 0.0, self.f) if self.problem.lumped else self.f.copy()
+        fluid = np.where(self.solid, 0.0, self.f) if q.lumped else self.f.copy()
         iterate = Iterate(self.p.copy(), fluid, self.solid.copy(), self.rigid)
         return replace(found, iterate=iterate, gap=self.h.copy(), mass=mass)
 

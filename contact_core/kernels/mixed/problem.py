@@ -64,7 +64,7 @@ class Problem:
     # periodic along y: the first and the last row are images of the last and the first but one; edge and weight 0 there
     wrapped: bool = False
     conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
-    supply: float | Array | None = None  # conserving: mass [ny] that enters, None: as much as the first column can take
+    supply: float | Array | None = None  # mass [ny] that enters, None: as much as the first column can take
     first: int = 0  # first column in which oil has pressure; upstream of it none presses
     stress: float = 0.0  # pressure that asperities below the grid carry at the floor
     depth: float = 0.0  # gap over which that falls by the factor e; 0: no such asperities
