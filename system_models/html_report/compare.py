@@ -8,16 +8,17 @@ from pathlib import Path
 import numpy as np
 
 from contact_core.errors import ContactError
+from fmu_src.html.markup import heading, paragraph, section, table
 
+from ..charts.chart import Chart, Line
+from ..charts.svg import figure
+from ..charts.units import Unit, stated, time_unit
 from ..run.cosim_report import aligned
-from .chart import Chart, Line, figure
 from .histories import BANDS
-from .markup import heading, paragraph, section, table
 from .opened import Run, open_run
-from .page import whole
+from .page import dressed
 from .panels import MAIN, MORE, Panel, band, unit_of, values
 from .scene import readable
-from .shown import Unit, stated, time_unit
 
 _MOST = 7  # runs, as many as there are colours
 _LEFT_OUT = ("name", "description")
@@ -149,7 +150,7 @@ def page(runs: Sequence[Run]) -> str:
     """Return the page that compares runs."""
     shared = _shared(runs)
     body = _ends(runs, shared) + _differences(runs) + _charts(runs, shared)
-    return whole(f"Compared: {', '.join(names(runs))}", "Comparison of runs", body)
+    return dressed(f"Compared: {', '.join(names(runs))}", "Comparison of runs", body)
 
 
 def _ends(runs: Sequence[Run], shared: Sequence[str]) -> str:

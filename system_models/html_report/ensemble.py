@@ -4,12 +4,14 @@ import json
 import math
 from dataclasses import replace
 
+from fmu_src.html.markup import paragraph, section, table
+
+from ..charts.chart import COLOURS, Chart, Line
+from ..charts.svg import figure
+from ..charts.units import time_unit
 from ..sweep.members import ATTRIBUTE, EXPLAINED, HEADINGS, ends_of
-from .chart import COLOURS, Chart, Line, figure
-from .markup import paragraph, section, table
 from .opened import Run
 from .panels import MAIN, band, unit_of, values
-from .shown import time_unit
 
 _MOST = len(COLOURS) - 1  # members whose lines are told apart
 _LINES = (

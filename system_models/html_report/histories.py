@@ -4,11 +4,13 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from .chart import COLOURS, Chart, Line, figure
-from .markup import folded, heading, paragraph, section
+from fmu_src.html.markup import folded, heading, paragraph, section
+
+from ..charts.chart import COLOURS, Chart, Line
+from ..charts.svg import figure
+from ..charts.units import time_unit, unit_for
 from .opened import Run
 from .panels import DUTY, MAIN, MORE, charts, constants, values
-from .shown import time_unit, unit_for
 from .trust import invalid
 
 BANDS = (

@@ -4,12 +4,13 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from fmu_src.html.markup import bullets, heading, paragraph, picture, printed, section, table
+
+from ..charts.units import stated
 from ..machines import report as machine_report
 from ..machines import trust
 from ..store import results
-from .markup import bullets, heading, paragraph, picture, printed, section, table
 from .opened import Run
-from .shown import stated
 
 _NAMES = {
     "overview": "The run at a glance", "path": "Along the path of contact", "time": "Against time",
@@ -47,7 +48,7 @@ def _pictures(run: Run) -> Iterator[str]:
         if drawn:
             yield heading("Pictures")
         for file in drawn:
-            yield picture(file, _NAMES.get(file.stem, file.stem.replace("_", " ")))
+            yield picture(file.read_bytes(), _NAMES.get(file.stem, file.stem.replace("_", " ")))
 
 
 def _resolved(folder: Path) -> Iterator[str]:

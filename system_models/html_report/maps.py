@@ -8,11 +8,13 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from fmu_src.html.markup import paragraph, section, text
+
+from ..charts.chart import Array, Chart, Line
+from ..charts.svg import figure, safe_json
+from ..charts.units import time_unit, unit_for
 from ..run.maps import ALONG, TIME
-from .chart import Array, Chart, Line, figure, safe_json
-from .markup import paragraph, section, text
 from .opened import Run
-from .shown import time_unit, unit_for
 
 _MOST = 1_500_000  # nodes of all maps of a page together, beyond which only every second, third ... is shown
 _TIMES = 16  # maps of so many times are shown, evenly spread

@@ -8,9 +8,9 @@ import xarray as xr
 
 from contact_core.quantities import TABLE
 
+from ..charts.chart import Array, Chart, Line
+from ..charts.units import Unit, negligible, time_unit, unit_for
 from ..store.results import ERROR, half_width
-from .chart import Array, Chart, Line
-from .shown import Unit, negligible, time_unit, unit_for
 
 _ALL = slice(None)
 _CAPPED = 999.0  # lambda ratios from here on are at their cap, which says nothing

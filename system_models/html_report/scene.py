@@ -8,11 +8,11 @@ from contact_core.errors import SceneError
 from contact_core.laws import SLOTS
 from contact_core.scene import Scene
 from contact_core.scene.units import parse
+from fmu_src.html.markup import Raw, bullets, equation, folded, heading, paragraph, section, source, table, text
 
+from ..charts.units import unit_for
 from ..explain import left_out
-from .markup import Raw, bullets, equation, folded, heading, paragraph, section, source, table, text
 from .opened import Run
-from .shown import unit_for
 
 _SYMBOL = "equations"  # what every law has
 

@@ -4,13 +4,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..run.half_widths import UNKNOWN, says_nothing
+from fmu_src.html.markup import Raw, paragraph, section, table, text
+
+from ..charts.half_widths import UNKNOWN, says_nothing
+from ..charts.units import Unit, negligible, stated, time_unit
 from ..store.results import ERROR
 from .errors import CAUSES
-from .markup import Raw, paragraph, section, table, text
 from .opened import Run
 from .panels import MAIN, Panel, band, unit_of, values
-from .shown import Unit, negligible, stated, time_unit
 from .trust import invalid, marked, raised, why_invalid
 
 _LARGE = 0.2  # relative half width from which an end value is called uncertain

@@ -8,16 +8,17 @@ import xarray as xr
 
 from contact_core.quantities import TABLE
 from contact_core.state import RangeFlag
+from fmu_src.html.markup import heading, paragraph, printed, section, table, text
 
+from ..charts.chart import Chart, Line
+from ..charts.svg import figure
+from ..charts.units import stated, time_unit, unit_for
 from ..machines import trust as machine_trust
 from ..run import cosim_report
 from ..run.flags import by_how_much
-from .chart import Chart, Line, figure
 from .errors import named
-from .markup import heading, paragraph, printed, section, table, text
 from .opened import Run
 from .panels import values
-from .shown import stated, time_unit, unit_for
 
 _REMEDY = {  # of a flag; the quantities that show by how much
     RangeFlag.LAMBDA_CAPPED: ("Nothing to do: lambda says nothing here.", ()),

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
+from ..charts.half_widths import cell
 from ..store.results import ASSUMED, half_width
-from .half_widths import cell
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -12,9 +12,9 @@ import xarray as xr
 from contact_core.scene import Scene
 from contact_core.state import RangeFlag
 
+from ..charts.half_widths import SHARES, UNKNOWN, cell, says_nothing, with_error
 from ..run.cosim_report import aligned
 from ..run.flags import by_how_much
-from ..run.half_widths import SHARES, UNKNOWN, cell, says_nothing, with_error
 from ..run.report import COLUMNS
 from ..store.results import ERROR
 from .ensemble import averaged, patches_of

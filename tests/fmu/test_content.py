@@ -25,10 +25,10 @@ from contact_core.laws import SLOTS
 from contact_core.laws.rheology import Carreau
 from contact_core.scene import Lubricant
 from contact_core.shapes import GEOMETRIES
+from fmu_src.html.markup import equation
 from fmu_src.package import evidence, icon, licences
 from fmu_src.package.build import build
 from fmu_src.package.document import measured
-from fmu_src.package.document.markup import equation
 from fmu_src.package.document.page import documentation
 from fmu_src.runtime.slave import ContactSlave
 from fmu_src.variables import variables

@@ -8,8 +8,8 @@ import xarray as xr
 from comparison import approx
 
 from contact_core.quantities import STATED, TABLE
+from system_models.charts.half_widths import with_error
 from system_models.run import report
-from system_models.run.half_widths import with_error
 from system_models.store.results import to_dataset, with_half_widths
 
 

@@ -10,10 +10,10 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene, SelfAffine, Surface
 
 from ...flavours import Flavour
+from ...html.markup import bullets, heading, number, paragraph, table, text
 from ...variables import FIDELITY
 from . import drawings, measured
 from .levels import LEVELS
-from .markup import bullets, number, paragraph, plain, table
 
 _CELSIUS = 273.15  # K
 
@@ -59,8 +59,8 @@ def data(scene: Scene, flavour: Flavour) -> Iterator[str]:
     ]
     yield table(("", "this scene"), rows)
     if scene.warnings():
-        yield "<h3>Notes on this scene</h3>"
-        yield from bullets(scene.warnings())
+        yield heading("Notes on this scene")
+        yield bullets(scene.warnings())
 
 
 def _at_level(scene: Scene, flavour: Flavour) -> str:
@@ -89,7 +89,7 @@ def signs(scene: Scene) -> Iterator[str]:
     """Yield the section on signs and directions."""
     yield drawings.SIGNS
     spins = "spin" not in scene.geometry.lacks
-    yield from bullets(
+    yield bullets(
         (
             "x is the direction of entrainment. Speeds are surface speeds along x, relative to the contact.",
             "friction_force acts on body 1 along +x, the opposite force on body 2. friction_coefficient is its "
@@ -206,7 +206,7 @@ def assumptions(scene: Scene) -> Iterator[str]:
 
 
 def _measured(found: measured.Table) -> str:
-    title = f"<p>{plain(found.title)} (<code>{plain(found.command)}</code>):</p>"
+    title = f"<p>{text(found.title)} (<code>{text(found.command)}</code>):</p>"
     return title + table(found.head, found.rows)
 
 

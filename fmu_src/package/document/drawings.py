@@ -5,7 +5,8 @@ _ARROW = (
     'orient="auto-start-reverse"><path d="M0 0 8 4 0 8z"/></marker></defs>'
 )
 
-SIGNS = f"""<svg viewBox="0 0 520 250" role="img" aria-label="Ball and disc with axes, speeds and friction">
+SIGNS = f"""<svg class="drawing" viewBox="0 0 520 250" role="img"
+aria-label="Ball and disc with axes, speeds and friction">
 {_ARROW.format("arrow")}
 <rect x="40" y="176" width="360" height="34" class="disc"/>
 <path d="M70 176 C100 176 110 160 150 160 L280 168 350 176z" class="oil"/>
@@ -23,7 +24,8 @@ SIGNS = f"""<svg viewBox="0 0 520 250" role="img" aria-label="Ball and disc with
 <text x="40" y="238">speed_1 &gt; speed_2 &gt; 0: friction_force &lt; 0, power_loss &gt; 0</text>
 </svg>"""
 
-STEPS = f"""<svg viewBox="0 0 520 230" role="img" aria-label="Inputs held over steps, outputs at the end of each">
+STEPS = f"""<svg class="drawing" viewBox="0 0 520 230" role="img"
+aria-label="Inputs held over steps, outputs at the end of each">
 {_ARROW.format("arrow-of-time")}
 <g class="line">
 <path d="M40 200 h460" marker-end="url(#arrow-of-time)"/>

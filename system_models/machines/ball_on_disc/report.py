@@ -11,8 +11,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...charts.half_widths import cell
 from ...run.cosim_report import aligned
-from ...run.half_widths import cell
 from ...store.results import ERROR
 from ..assembly import Assembly
 from ..report import heat_stored

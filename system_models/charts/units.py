@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..run.half_widths import digits_of
+from .half_widths import digits_of
 
 _ZERO = 273.15  # K
 _DEGREES = "°C"
