@@ -29,7 +29,8 @@ class Line:
     half: Array | None = None  # half width of the error: a band around a line, bars at marks alone
     place: int = 0  # in COLOURS and DASHES
     colour: str = ""  # in place of that one, without dashes
-    style: str = "-"  # "-", "--" or ":", "o", "s", "x" or "." for marks, or both; "|-" has stairs that end at points
+    style: str = "-"  # "-", "--" or ":", "o", "s", "x" or "." for marks, or both; "h" for hollow marks
+    # "|-" has stairs that end at points, "-|" some that begin there
     faint: float = 1.0  # opacity
     below: Array | None = None  # the other edge of an area in place of the line
     right: bool = False  # whether its values are read on the right

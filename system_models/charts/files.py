@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 _KEY: dict[str, Any] = {"fontsize": "small", "framealpha": 0.8, "edgecolor": "none", "handlelength": 1.6}
 _MANY = 4  # entries of a key: more stand in two columns
 _TITLE = 0.5  # height of the title and of a row of the key below [in]
+_ROOM = 0.07  # above the lines, for a row of the key
 _QUIET = "0.92"
 
 
@@ -58,9 +59,9 @@ def figure(sheet: Sheet) -> "Figure":
     if sheet.title:
         drawn.suptitle(sheet.title, fontsize="medium", parse_math=False)
     if sheet.key:
-        handles = [_handle(line) for line in sheet.key]
+        beside: Any = f"outside {'lower' if sheet.title else 'upper'} center"
         drawn.legend(
-            handles=handles, loc="outside lower center", ncols=4, frameon=False, fontsize="small",
+            handles=[_handle(line) for line in sheet.key], loc=beside, ncols=4, frameon=False, fontsize="small",
             title=sheet.key_title or None, title_fontsize="small",
         )  # fmt: skip
     return drawn
@@ -106,11 +107,12 @@ def _handle(line: Line) -> Any:
     """Return a line of matplotlib, with its points."""
     from matplotlib.lines import Line2D
 
-    stairs, dash = "|" in line.style, cast(Any, line.dash or "none")
+    stairs: dict[str, Any] = {"|-": "steps-pre", "-|": "steps-post"}
+    dash = cast(Any, line.dash or "none")
     return Line2D(
         line.x, line.y, color=line.ink, linestyle=dash, marker=line.mark or None, linewidth=1.4,
         markersize=3.0 if line.mark == "." else 4.0, markerfacecolor="white" if line.hollow else line.ink,
-        alpha=line.faint, label=_math(line.label)[0] or "_", drawstyle="steps-pre" if stairs else "default",
+        alpha=line.faint, label=_math(line.label)[0] or "_", drawstyle=stairs.get(line.style, "default"),
     )  # fmt: skip
 
 
@@ -125,7 +127,7 @@ def _polar(axes: Any) -> None:
 
 def _scales(axes: "Axes", chart: Chart) -> None:
     x0, x1, y0, y1 = scale_of(chart)
-    room = 0.0 if chart.y_range or chart.logarithmic or not chart.keyed else 0.1 * (y1 - y0)
+    room = 0.0 if chart.y_range or chart.logarithmic else _ROOM * _rows_of_key(chart) * (y1 - y0)
     axes.set_xscale("log" if chart.logarithmic_x else "linear")
     axes.set_yscale("log" if chart.logarithmic else "linear")
     axes.set(xlim=(x0, x1), ylim=(y1 + room, y0) if chart.downward else (y0, y1 + room))
@@ -135,7 +137,8 @@ def _scales(axes: "Axes", chart: Chart) -> None:
     ):
         if log or names:
             shown = names or {value: number(value) for value in decades(low, high)}
-            axis.set_ticks(list(shown), labels=[_math(name)[0] for name in shown.values()])
+            labels = [_math(name)[0] for name in shown.values()]
+            axis.set_ticks(list(shown), labels=labels, fontsize="small" if names else None)
             axis.set_tick_params(which="minor", size=0.0, labelsize=0.0)
             axis.minorticks_off()
     words = cut_off(chart, scale_of(chart))
@@ -204,10 +207,14 @@ def _words(axes: "Axes", chart: Chart, continued: bool) -> None:
         axes.set_ylabel(words, parse_math=formula)
     if chart.keyed:
         place = {"loc": "lower left", "bbox_to_anchor": (-0.12, -0.1)} if chart.polar else {"loc": "best"}
-        columns = 2 if len(chart.keyed) > _MANY else 1
+        columns = -(-len(chart.keyed) // max(_rows_of_key(chart), 1))
         key = axes.legend(title=chart.key or None, title_fontsize="small", ncols=columns, **_KEY, **place)
         for each, line in zip(key.get_texts(), [line for line in chart.lines if line.label], strict=False):
             each.set_parse_math(_math(line.label)[1])
+
+
+def _rows_of_key(chart: Chart) -> int:
+    return -(-len(chart.keyed) // (2 if len(chart.keyed) > _MANY else 1))
 
 
 def _math(words: str) -> tuple[str, bool]:

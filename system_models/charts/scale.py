@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -31,14 +32,17 @@ class Scale(NamedTuple):
 def scale_of(chart: Chart, right: bool = False) -> Scale:
     """Return the ranges of a chart's axes, with those of the values that are read on its right."""
     lines = [line for line in chart.lines if line.right == right and len(line.x)]
-    y0, y1 = (chart.y_range if not right else None) or _upward(chart, lines)
+    y0, y1 = _upward(replace(chart, logarithmic=False), lines) if right else chart.y_range or _upward(chart, lines)
     x0, x1 = chart.x_range or _across(chart, [line for line in chart.lines if len(line.x)])
     return Scale(x0, x1 if x1 > x0 else x0 + 1.0, y0, y1 if y1 > y0 else y0 + 1.0)
 
 
 def _across(chart: Chart, lines: Sequence[Line]) -> tuple[float, float]:
-    xs = finite(np.concatenate([line.x for line in lines] or [np.array([0.0])]), chart.logarithmic_x)
+    xs = np.concatenate([np.array([*chart.places.values()]), *(line.x for line in lines)])
+    xs = finite(xs, chart.logarithmic_x)
     x0, x1 = (float(xs.min()), float(xs.max())) if xs.size else (1.0, 10.0)
+    if x0 == x1:
+        return x0 - 0.5 * abs(x0), x1 + 0.5 * abs(x1)
     margin = _MARGIN if any(line.mark for line in lines) else 0.0
     if chart.logarithmic_x:
         beside = (x1 / x0) ** margin

@@ -4,6 +4,7 @@ import json
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from importlib.resources import files
 
 import numpy as np
 
@@ -194,6 +195,11 @@ def _data(chart: Chart, lines: Sequence[Line], scale: Scale) -> str:
         ],
     }
     return safe_json(found)
+
+
+def script() -> str:
+    """Return the script of a page that shows values under the pointer, and draws maps."""
+    return files(__package__).joinpath("viewer.js").read_text("utf-8")
 
 
 def safe_json(value: object) -> str:

@@ -1,7 +1,6 @@
 """Results as HTML pages: one file each, without network, for reading, printing and showing to others.
 
     opened      a folder of results as a Run: finished or not, of a contact, a machine or any system
-    panels      which quantities of a contact are drawn, and in which words
     summary     the end values and what to think of them
     scene       the scene as it was run; what was modelled and what was not
     ensemble    an ensemble of surfaces: its mean, its band, its members
@@ -14,6 +13,5 @@
     page        the page of one run
     compare     several runs in the same charts, with their bands; a table for the terminal
 
-`viewer.js` is in every page: it shows values under the pointer and draws the
-maps; all else is there without it.
+All is there without the script of the page, but for maps and values under the pointer.
 """

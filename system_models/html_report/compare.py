@@ -14,10 +14,10 @@ from ..charts.chart import Chart, Line
 from ..charts.svg import figure
 from ..charts.units import Unit, stated, time_unit
 from ..run.cosim_report import aligned
+from ..run.panels import MAIN, MORE, Panel, band, unit_of, values
 from .histories import BANDS
 from .opened import Run, open_run
 from .page import dressed
-from .panels import MAIN, MORE, Panel, band, unit_of, values
 from .scene import readable
 
 _MOST = 7  # runs, as many as there are colours

@@ -9,9 +9,9 @@ from fmu_src.html.markup import paragraph, section, table
 from ..charts.chart import COLOURS, Chart, Line
 from ..charts.svg import figure
 from ..charts.units import time_unit
+from ..run.panels import MAIN, band, unit_of, values
 from ..sweep.members import ATTRIBUTE, EXPLAINED, HEADINGS, ends_of
 from .opened import Run
-from .panels import MAIN, band, unit_of, values
 
 _MOST = len(COLOURS) - 1  # members whose lines are told apart
 _LINES = (

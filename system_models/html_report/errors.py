@@ -14,8 +14,8 @@ from ..charts.half_widths import SHARES
 from ..charts.units import stated, unit_for
 from ..machines.assumed import ATTRIBUTE as WORTH
 from ..machines.coupling_error import ATTRIBUTE as COUPLING
+from ..run.panels import values
 from .opened import Run
-from .panels import values
 
 CAUSES = {  # in words, by field of `Error`
     "time": "steps in time",

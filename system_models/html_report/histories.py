@@ -1,16 +1,16 @@
 """Quantities against time: of one contact, of a machine's parts, and of each of its contacts."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
 from fmu_src.html.markup import folded, heading, paragraph, section
 
 from ..charts.chart import COLOURS, Chart, Line
-from ..charts.svg import figure
+from ..charts.svg import figures
 from ..charts.units import time_unit, unit_for
+from ..run.panels import DUTY, MAIN, MORE, charts, constants, values
 from .opened import Run
-from .panels import DUTY, MAIN, MORE, charts, constants, values
 from .trust import invalid
 
 BANDS = (
@@ -29,9 +29,9 @@ def sections(run: Run) -> str:
     shaded = invalid(run)
     if run.of_contact:
         main, more = (
-            _figures(charts(run.dataset, panels, "", shaded), f"history-{k}") for k, panels in enumerate((MAIN, MORE))
+            figures([*charts(run.dataset, panels, "", shaded)], f"history-{k}") for k, panels in enumerate((MAIN, MORE))
         )
-        duty = _figures(charts(run.dataset, DUTY, "", shaded), "duty")
+        duty = figures([*charts(run.dataset, DUTY, "", shaded)], "duty")
         held = ", ".join(constants(run.dataset, (*DUTY, *MORE)))
         still = paragraph(f"Constant throughout: {held}.") if held else ""
         return section(
@@ -45,19 +45,14 @@ def sections(run: Run) -> str:
             duty,
             still,
         )
-    parts = _figures(_of_parts(run), "part")
+    parts = figures([*_of_parts(run)], "part")
     each = [_of_contact(run, name, k, shaded) for k, name in enumerate(run.contacts)]
     contacts = [heading("Each contact"), *each] if each else []
     return section("histories", "Histories", paragraph(BANDS), parts, *contacts)
 
 
-def _figures(found: Iterable[Chart], key: str) -> str:
-    drawn = "".join(figure(chart, f"{key}-{k}") for k, chart in enumerate(found))
-    return f'<div class="charts">{drawn}</div>' if drawn else ""
-
-
 def _of_contact(run: Run, name: str, number: int, shaded: tuple[tuple[float, float], ...]) -> str:
-    drawn = _figures(charts(run.dataset, MAIN, name, shaded), f"contact-{number}")
+    drawn = figures([*charts(run.dataset, MAIN, name, shaded)], f"contact-{number}")
     return folded(f"Contact {name}", drawn, unfolded=number == 0)
 
 

@@ -1,9 +1,8 @@
 """The page of one run."""
 
-from importlib.resources import files
-
 from fmu_src.html.page import whole
 
+from ..charts.svg import script
 from . import ensemble, errors, histories, machine, maps, origin, scene, summary, trust
 from .opened import Run
 
@@ -34,5 +33,4 @@ def page(run: Run) -> str:
 
 def dressed(title: str, kind: str, body: str) -> str:
     """Return a page around sections of results, with the script that draws maps and reads charts."""
-    script = files(__package__).joinpath("viewer.js").read_text("utf-8")
-    return whole(title, kind, body, script, _SHORT)
+    return whole(title, kind, body, script(), _SHORT)

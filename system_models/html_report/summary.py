@@ -8,10 +8,10 @@ from fmu_src.html.markup import Raw, paragraph, section, table, text
 
 from ..charts.half_widths import UNKNOWN, says_nothing
 from ..charts.units import Unit, negligible, stated, time_unit
+from ..run.panels import MAIN, Panel, band, unit_of, values
 from ..store.results import ERROR
 from .errors import CAUSES
 from .opened import Run
-from .panels import MAIN, Panel, band, unit_of, values
 from .trust import invalid, marked, raised, why_invalid
 
 _LARGE = 0.2  # relative half width from which an end value is called uncertain

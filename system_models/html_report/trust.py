@@ -16,9 +16,9 @@ from ..charts.units import stated, time_unit, unit_for
 from ..machines import trust as machine_trust
 from ..run import cosim_report
 from ..run.flags import by_how_much
+from ..run.panels import values
 from .errors import named
 from .opened import Run
-from .panels import values
 
 _REMEDY = {  # of a flag; the quantities that show by how much
     RangeFlag.LAMBDA_CAPPED: ("Nothing to do: lambda says nothing here.", ()),

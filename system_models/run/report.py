@@ -3,17 +3,15 @@
 import json
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
+from ..charts import files
+from ..charts.chart import Sheet, spans_of
 from ..charts.half_widths import cell
 from ..store.results import ASSUMED, half_width
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from .panels import FRICTION, LAMBDA, PRESSURE, ROUGHNESS, TRIBOFILM, WEAR, Panel, chart
 
 # heading, unit people read, variable, factor from SI, digits
 COLUMNS = (
@@ -44,32 +42,16 @@ _FEW_ROWS = 12
 _DIGITS, _MOST_DIGITS = 2, 6  # of the time [min]
 _WARM = 0.05  # K: bodies warmer than the oil by more are worth a line
 
-_BLUE, _RED, _BLACK = "#0072B2", "#D55E00", "#000000"  # of Okabe and Ito: which the colour-blind can tell apart
-_Line = tuple[str, str, str]  # variable, legend, colour
-
-
-def _bodies(name: str) -> tuple[_Line, _Line]:
-    return (f"{name}_1", "body 1", _BLUE), (f"{name}_2", "body 2", _RED)
-
-
-# label, factor from SI, lines
-_PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
-    ("friction coefficient", 1.0, (("friction_coefficient", "", _BLACK),)),
-    ("mean tribofilm thickness [nm]", 1e9, _bodies("tribofilm")),
-    ("height [nm]", 1e9, (("h_c", "central film thickness $h_c$", _BLUE), ("sigma", "composite roughness", _RED))),
-    ("mean wear depth [nm]", 1e9, _bodies("wear_depth")),
-    (r"lambda ratio $\lambda$", 1.0, (("lambda_ratio", "", _BLACK),)),
-    ("roughness Rq [nm]", 1e9, _bodies("roughness")),
-    (
-        "share of the solids",
-        1.0,
-        (
-            ("contact_area_ratio", "area $A_c$", _BLUE),
-            ("contact_load_ratio", "load $W_c$", _RED),
-        ),
-    ),
-    ("largest pressure [GPa]", 1e-9, (("pressure_max", "", _BLACK),)),
+_FILM = Panel("Height", ("h_c", "sigma"), ("central film thickness h_c", "composite roughness"), "height", "")
+_SOLIDS = Panel(
+    "Share of the solids",
+    ("contact_area_ratio", "contact_load_ratio"),
+    ("area A_c", "load W_c"),
+    "share",
+    "",
+    share=True,
 )
+_PANELS = (FRICTION, TRIBOFILM, _FILM, WEAR, LAMBDA, ROUGHNESS, _SOLIDS, PRESSURE)
 
 
 def table(dataset: xr.Dataset, width: float = math.inf) -> str:
@@ -174,43 +156,15 @@ def invalid_rows(dataset: xr.Dataset) -> int:
 
 def write_overview(dataset: xr.Dataset, path: Path) -> Path:
     """Draw the run into a PNG file and return its path."""
-    overview(dataset).savefig(path, dpi=150)
-    return path
+    return files.save(overview(dataset), path)
 
 
-def overview(dataset: xr.Dataset) -> "Figure":
+def overview(dataset: xr.Dataset) -> Sheet:
     """Return the picture of the run against time; invalid rows are shaded."""
-    from matplotlib.figure import Figure
-
     ratio = dataset["lambda_ratio"]
     uncapped = ratio.where((ratio > 0.0) & (ratio < 1e3))  # at its caps it says nothing about the roughness
-    shown = dataset.assign(sigma=dataset["h_c"] / uncapped)
-    figure = Figure(figsize=(9.0, 10.0), layout="constrained")
-    axes = figure.subplots(4, 2, sharex=True)
-    for axis, (label, factor, lines) in zip(axes.flat, _PANELS, strict=True):
-        _draw(axis, shown, label, factor, tuple(line for line in lines if line[0] in shown))
-    for axis in axes[-1]:
-        axis.set_xlabel("time [min]")
-    figure.align_ylabels()
-    figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium", parse_math=False)
-    return figure
-
-
-def _draw(axis: "Axes", dataset: xr.Dataset, label: str, factor: float, lines: tuple[_Line, ...]) -> None:
-    minutes = dataset["time"].values / 60.0
-    for name, legend, colour in lines:
-        values = factor * dataset[name].values
-        axis.plot(minutes, values, color=colour, linewidth=1.4, label=legend)
-        half = half_width(dataset, name)
-        if half is not None:
-            low, high = values - factor * half, values + factor * half
-            axis.fill_between(minutes, low, high, color=colour, alpha=0.2, linewidth=0.0)
-    for start, end, valid in zip(minutes[:-1], minutes[1:], dataset["valid"].values[1:], strict=True):
-        if not valid:
-            axis.axvspan(start, end, color="0.85", linewidth=0.0)
-    if len(lines) > 1:
-        axis.legend(frameon=False)
-    axis.set_ylabel(label)
-    axis.set_xlim(minutes[0], minutes[-1])
-    axis.set_ylim(bottom=0.0)
-    axis.spines[["top", "right"]].set_visible(False)
+    shown = dataset.assign(sigma=(dataset["h_c"] / uncapped).assign_attrs(units="m"))
+    invalid = spans_of(dataset["time"].values, ~dataset["valid"].values)
+    there = [(each, [name for name in each.quantities if name in shown]) for each in _PANELS]
+    drawn = [chart(shown, each, names, invalid) for each, names in there if names]
+    return Sheet(drawn, dataset.attrs.get("title", ""))

@@ -4,7 +4,6 @@ import itertools
 import textwrap
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -12,28 +11,27 @@ import xarray as xr
 from contact_core.scene import Scene
 from contact_core.state import RangeFlag
 
+from ..charts import files
+from ..charts.chart import Chart, Line, Sheet
 from ..charts.half_widths import SHARES, UNKNOWN, cell, says_nothing, with_error
 from ..run.cosim_report import aligned
 from ..run.flags import by_how_much
 from ..run.report import COLUMNS
 from ..store.results import ERROR
 from .ensemble import averaged, patches_of
-from .plan import Plan, Point
+from .plan import Factor, Plan, Point
 from .points import ends
 from .sensitivity import Indices
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 OUTPUTS = (  # in tables and pictures
     *("friction_coefficient", "h_c", "contact_load_ratio"),
     *("tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2"),
 )
 _MOST_ROWS = 40
-_BLUE = "#0072B2"  # of Okabe and Ito
+Column = tuple[str, str, str, float, int]  # heading, unit people read, variable, factor from SI, digits
 
 
-def shown(dataset: xr.Dataset) -> list[tuple[str, str, str, float, int]]:
+def shown(dataset: xr.Dataset) -> list[Column]:
     """Return the columns whose values are not all zero, or not known."""
     last, open_ = ends(dataset), _unknown(dataset)
     return [
@@ -189,66 +187,45 @@ def _known(dataset: xr.Dataset) -> list[str]:
 
 def write_picture(plan: Plan, dataset: xr.Dataset, file: Path) -> Path:
     """Write the picture and return its path: a panel for each output, of samples one for each key that they vary."""
-    from matplotlib.figure import Figure
-
     last, columns = ends(dataset), shown(dataset)
     if plan.sampled:
-        across, down = len(plan.sampled), len(columns)
+        charts = [_dots(last, each, column) for column in columns for each in plan.sampled]
     else:
-        across = min(3, len(columns))
-        down = -(-len(columns) // across)
-    figure = Figure(figsize=(4.0 * across + 1.0, 2.6 * down + 0.6), layout="constrained")
-    axes = figure.subplots(down, across, squeeze=False)
-    for k, (heading, unit, name, factor, _) in enumerate(columns):
-        label = f"{heading} [{unit}]" if unit else heading
-        if plan.sampled:
-            axes[k][0].set_ylabel(label)
-            for axis, each in zip(axes[k], plan.sampled, strict=True):
-                _dots(axis, last, each.key, name, factor)
-                axis.set_xscale("log" if each.logarithmic else "linear")
-                axis.set_xlabel(f"{each.key} [{each.unit}]" if each.unit and k == down - 1 else "")
-        else:
-            axis = axes.flat[k]
-            axis.set_ylabel(label)
-            _curves(axis, plan, last, name, factor, legend=k == 0)
-    for axis in axes.flat[len(columns) :] if not plan.sampled else ():
-        axis.set_axis_off()
-    title = textwrap.fill(dataset.attrs["title"], 40 * across)
+        charts = [_curves(plan, last, column, keyed=k == 0) for k, column in enumerate(columns)]
+    across = len(plan.sampled) if plan.sampled else min(3, len(columns))
     bars = "at the end of each run; bands and bars: stated errors (95 %)"
-    figure.suptitle(f"{title}\n{bars}", fontsize=9, parse_math=False)
-    figure.savefig(file, dpi=120)
-    return file
+    title = f"{textwrap.fill(dataset.attrs['title'], 40 * across)}\n{bars}"
+    return files.save(Sheet(charts, title, across, 4.2), file, dpi=120)
 
 
-def _dots(axis: "Axes", last: xr.Dataset, key: str, name: str, factor: float) -> None:
-    """Draw an output over a sampled key, one dot with its error for each sample."""
+def _label(column: Column) -> str:
+    return f"{column[0]} [{column[1]}]" if column[1] else column[0]
+
+
+def _dots(last: xr.Dataset, key: Factor, column: Column) -> Chart:
+    """Return an output over a sampled key, one dot with its error for each sample."""
+    _, _, name, factor, _ = column
     values = factor * last[name].transpose("sample", ...).values.reshape(last.sizes["sample"], -1)
-    where = np.repeat(last[key].values[:, None], values.shape[1], axis=1)
-    if f"{name}{ERROR}" in last.coords:
-        halves = factor * last.coords[f"{name}{ERROR}"].transpose("sample", ...).values.reshape(values.shape)
-        axis.errorbar(where.ravel(), values.ravel(), halves.ravel(), fmt="none", ecolor="#BBBBBB", lw=0.6)
-    axis.plot(where.ravel(), values.ravel(), "o", ms=3, color=_BLUE)
+    where, half = np.repeat(last[key.key].values[:, None], values.shape[1], axis=1), last.coords.get(f"{name}{ERROR}")
+    bars = None if half is None else factor * half.transpose("sample", ...).values.ravel()
+    dots = Line("", where.ravel(), values.ravel(), bars, style="o")
+    label = f"{key.key} [{key.unit}]" if key.unit else key.key
+    return Chart("", label, _label(column), [dots], logarithmic_x=key.logarithmic, from_zero=False)
 
 
-def _curves(axis: "Axes", plan: Plan, last: xr.Dataset, name: str, factor: float, legend: bool) -> None:
-    """Draw an output over the longest axis of the grid, a curve for each choice of the others."""
+def _curves(plan: Plan, last: xr.Dataset, column: Column, keyed: bool) -> Chart:
+    """Return an output over the longest axis of the grid, a curve for each choice of the others."""
+    _, _, name, factor, _ = column
     along = max(plan.grid, key=lambda each: len(each.choices))
     others = [each for each in plan.grid if each is not along]
-    where = last[along.key].values
-    numbers = np.issubdtype(np.asarray(where).dtype, np.number)
-    half = last.coords.get(f"{name}{ERROR}")
-    for place in itertools.product(*(range(len(each.choices)) for each in others)):
-        here = {each.key: k for each, k in zip(others, place, strict=True)}
-        values = factor * last[name].isel(here).values
-        label = ", ".join(f"{each.key} = {each.choices[k]}" for each, k in zip(others, place, strict=True))
-        (line,) = axis.plot(where, values, "o-", ms=3, lw=1, label=label)
-        if half is not None:
-            width = factor * half.isel(here).values
-            if numbers:
-                axis.fill_between(where, values - width, values + width, color=line.get_color(), alpha=0.12, lw=0)
-            else:
-                axis.errorbar(where, values, width, fmt="none", ecolor=line.get_color(), lw=1)
-    axis.set_xlabel(f"{along.key} [{last[along.key].attrs['units']}]" if numbers else along.key)
-    if others and legend:
-        for text in axis.legend(fontsize=6).get_texts():
-            text.set_parse_math(False)
+    numbers = np.issubdtype(last[along.key].dtype, np.number)
+    where = last[along.key].values if numbers else np.arange(len(along.choices), dtype=float)
+    half, lines = last.coords.get(f"{name}{ERROR}"), []
+    for place, choice in enumerate(itertools.product(*(range(len(each.choices)) for each in others))):
+        here = {each.key: k for each, k in zip(others, choice, strict=True)}
+        label = ", ".join(f"{each.key} = {each.choices[k]}" for each, k in zip(others, choice, strict=True))
+        values, width = last[name].isel(here).values, None if half is None else factor * half.isel(here).values
+        lines.append(Line(label if keyed else "", where, factor * values, width, place, style="o-"))
+    x_label = f"{along.key} [{last[along.key].attrs['units']}]" if numbers else along.key
+    names = {} if numbers else dict(zip(where.tolist(), map(str, along.choices), strict=True))
+    return Chart("", x_label, _label(column), lines, from_zero=False, x_names=names)

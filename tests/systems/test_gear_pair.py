@@ -11,6 +11,7 @@ from comparison import approx
 from numpy.typing import NDArray
 
 from contact_core.errors import SceneError
+from system_models.charts import files
 from system_models.machines import reading
 from system_models.machines.assembly import Assembly
 from system_models.machines.gear_pair import pictures as gear_pair_pictures
@@ -192,7 +193,7 @@ def test_starts_and_stops_wear_the_flanks_anew_each_time(tmp_path: Path) -> None
     assert np.isnan(record.friction[-1])  # standing still
     assert record.of("mesh.power_loss")[-1] == approx(0.0, abs=1.0)
     assert len(gear_pair_report.lines(record.assembly, record.dataset)) > 5
-    assert len(gear_pair_pictures.time(record).axes) == 8
+    assert len(gear_pair_pictures.sheets(record)["time"].charts) == 8
 
 
 @pytest.mark.long
@@ -213,7 +214,7 @@ def test_a_duty_without_load_is_told_so(tmp_path: Path) -> None:
     assembly = assembled({**CONSTANT, "torque": "0 N m", "duration": "10 s"}, stations=4)
     dataset = run(assembly, tmp_path)
     assert "no stretch" in gear_pair_report.lines(assembly, dataset)[0]
-    assert len(gear_pair_pictures.overview(Record(assembly, dataset)).axes) == 8
+    assert len(files.figure(gear_pair_pictures.sheets(Record(assembly, dataset))["overview"]).axes) == 8
 
 
 @pytest.mark.parametrize(("name", "count", "last"), [("gear_fzg_a", 12, 534.5), ("gear_fzg_c", 7, 265.0)])

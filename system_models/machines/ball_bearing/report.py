@@ -5,6 +5,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from ...charts import files
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
 from . import pictures as ball_bearing_pictures
@@ -38,7 +39,7 @@ _SOLIDS, _LAYERS = "contact_load_ratio", ("tribofilm_1", "tribofilm_2", "wear_de
 
 def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
     """Write the pictures and return their paths, `overview.png` first."""
-    return ball_bearing_pictures.write(BearingRun(assembly, dataset), folder)
+    return files.write(ball_bearing_pictures.sheets(BearingRun(assembly, dataset)), folder)
 
 
 def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from ...charts import files
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
 from . import pictures
@@ -38,13 +39,7 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
 
 def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
     """Write the pictures and return their paths."""
-    record, written = Record(assembly, dataset), []
-    for name, draw in pictures.FIGURES.items():
-        figure = draw(record)
-        figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium", parse_math=False)
-        figure.savefig(folder / f"{name}.png", dpi=150)
-        written.append(folder / f"{name}.png")
-    return written
+    return files.write(pictures.sheets(Record(assembly, dataset)), folder)
 
 
 def _heading(record: Record) -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from ...charts import files
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
 from ..report import heat_stored
@@ -56,13 +57,7 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
 
 def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
     """Write the pictures: the run at a glance, all along the path of contact, all against time."""
-    record, written = Record(assembly, dataset), []
-    for name, draw in gear_pair_pictures.FIGURES.items():
-        figure = draw(record)
-        figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium", parse_math=False)
-        figure.savefig(folder / f"{name}.png", dpi=150)
-        written.append(folder / f"{name}.png")
-    return written
+    return files.write(gear_pair_pictures.sheets(Record(assembly, dataset)), folder)
 
 
 def _table(record: Record) -> list[str]:
