@@ -59,7 +59,7 @@ def _end(run: Run, panel: Panel, contact: str) -> Iterator[tuple[str, float, flo
         full = run.of(contact, name)
         if full in run.dataset:
             last = values(run.dataset, full)[-1:]
-            unit = unit_of(run.dataset, [full], name, slice(-1, None))
+            unit = unit_of([(run.dataset, full)], name, slice(-1, None))
             half = band(run.dataset, full, unit)
             yield label, float(unit.of(last)[0]), None if half is None else float(half[-1]), unit
 

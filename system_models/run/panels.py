@@ -12,7 +12,6 @@ from ..charts.chart import Array, Chart, Line, Spans
 from ..charts.units import Unit, negligible, time_unit, unit_for
 from ..store.results import ERROR, half_width
 
-CELSIUS = 273.15  # K, of 0 degC
 _ALL = slice(None)
 _CAPPED = 999.0  # lambda ratios from here on are at their cap, which says nothing
 
@@ -100,7 +99,7 @@ def constants(dataset: xr.Dataset, panels: tuple[Panel, ...]) -> Iterator[str]:
         for name, label in zip(panel.quantities, panel.labels, strict=True):
             if name not in dataset or _changes(dataset, [name]) or not values(dataset, name)[-1]:
                 continue
-            unit = unit_of(dataset, [name], name)
+            unit = unit_of([(dataset, name)], name)
             if negligible(float(unit.of(values(dataset, name)[-1]))):
                 continue
             who = f" of {label}" if len(panel.quantities) > 1 else ""
@@ -119,30 +118,41 @@ def _changes(dataset: xr.Dataset, names: list[str]) -> bool:
 
 def chart(dataset: xr.Dataset, panel: Panel, names: Sequence[str], invalid: Spans = ()) -> Chart:
     """Return one chart against time, with the bands that the result has; `invalid` are spans of time [s]."""
-    clock = time_unit(float(dataset.variables["time"].values[-1]))
-    unit, time = unit_of(dataset, names, panel.quantities[0]), clock.of(dataset.variables["time"].values)
+    columns = [(label, dataset, name, k) for k, (name, label) in enumerate(zip(names, panel.labels, strict=False))]
+    return overlaid(panel, panel.title, panel.quantities[0], columns, invalid)
+
+
+def overlaid(
+    panel: Panel, title: str, quantity: str, columns: Sequence[tuple[str, xr.Dataset, str, int]], invalid: Spans = ()
+) -> Chart:
+    """Return a chart of variables of any results: label, result, variable and place in the palette of each."""
+    clock = time_unit(max(float(dataset.variables["time"].values[-1]) for _, dataset, _, _ in columns))
+    unit = unit_of([(dataset, name) for _, dataset, name, _ in columns], quantity)
     lines = [
-        Line(label, time, unit.of(values(dataset, name)), band(dataset, name, unit), place)
-        for place, (name, label) in enumerate(zip(names, panel.labels, strict=False))
-    ]
+        Line(
+            label, clock.of(dataset.variables["time"].values), unit.of(values(dataset, name)),
+            band(dataset, name, unit), place,
+        )
+        for label, dataset, name, place in columns
+    ]  # fmt: skip
     return Chart(
-        panel.title,
-        f"time {clock.label}",
-        f"{panel.symbol} {unit.label}",
-        lines,
-        panel.caption,
-        from_zero=unit.offset == 0.0,
-        downward=panel.downward,
-        most=1.0 if panel.share else None,
+        title, f"time {clock.label}", f"{panel.symbol} {unit.label}", lines, panel.caption,
+        from_zero=unit.offset == 0.0, downward=panel.downward, most=1.0 if panel.share else None,
         dark=[(float(clock.of(begin)), float(clock.of(end))) for begin, end in invalid],
-    )
+    )  # fmt: skip
 
 
-def unit_of(dataset: xr.Dataset, names: Sequence[str], quantity: str, rows: slice = _ALL) -> Unit:
+def apart(panel: Panel) -> Iterator[tuple[str, str]]:
+    """Yield the quantities of a panel, each for a chart of its own, with its title."""
+    for name, label in zip(panel.quantities, panel.labels, strict=True):
+        yield name, f"{panel.title}, {label}" if len(panel.quantities) > 1 else panel.title
+
+
+def unit_of(columns: Sequence[tuple[xr.Dataset, str]], quantity: str, rows: slice = _ALL) -> Unit:
     """Return the unit in which variables of the same quantity are read, by some of their rows."""
-    largest = np.concatenate([values(dataset, name)[rows] for name in names])
-    known = TABLE.get(quantity)
-    return unit_for(dataset.variables[names[0]].attrs.get("units", "1"), largest, bool(known and known.relative))
+    largest = np.concatenate([values(dataset, name)[rows] for dataset, name in columns])
+    known, (dataset, name) = TABLE.get(quantity), columns[0]
+    return unit_for(dataset.variables[name].attrs.get("units", "1"), largest, bool(known and known.relative))
 
 
 def values(dataset: xr.Dataset, name: str) -> Array:

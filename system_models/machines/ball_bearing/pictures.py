@@ -6,10 +6,12 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from ...charts.chart import BLACK, BLUE, GREEN, GREY, NOTHING, ORANGE, PURPLE, RED, SKY, Chart, Line, Sheet, shades
-from ...charts.units import time_unit
-from ...run.panels import CELSIUS, FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR
+from ...charts.units import CELSIUS, time_unit
+from ...run.panels import FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR
+from ..assembly import Assembly
 from .geometry import RACES, RaceName
 from .record import CAPPED, Array, BearingRun, ContactClass
 
@@ -24,9 +26,10 @@ _LEAST = 1e-4  # nm: films and wear that are always less are none
 _Along = Callable[[RaceName], tuple[Array, Array]]  # azimuth [rad] and values of a race
 
 
-def sheets(run: BearingRun) -> dict[str, Sheet]:
+def sheets(assembly: Assembly, dataset: xr.Dataset) -> dict[str, Sheet]:
     """Return the pictures by name: the run at a glance, the load zone, the surfaces of all load classes."""
-    title = run.dataset.attrs.get("title", run.assembly.description)
+    run = BearingRun(assembly, dataset)
+    title = dataset.attrs.get("title", assembly.description)
     layers = [_of_bodies(run, "tribofilm", TRIBOFILM.title), _of_bodies(run, "wear_depth", WEAR.title)]
     ratio = _of_contacts(run, "lambda_ratio", LAMBDA.title)
     overview = [

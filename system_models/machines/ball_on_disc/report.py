@@ -4,16 +4,14 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...charts import files
 from ...charts.chart import BLACK, BLUE, GREEN, GREY, RED, Chart, Line, Sheet, shades, spans_of
 from ...charts.half_widths import cell
-from ...charts.units import Unit, time_unit
+from ...charts.units import CELSIUS, Unit, time_unit
 from ...run.cosim_report import aligned
 from ...run.panels import FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR, chart
 from ...store.results import ERROR
@@ -23,7 +21,6 @@ from ..report import heat_stored
 _SHARES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0)  # of the run: running-in is early
 _LEAST = 4  # speeds of a curve
 _SAME = 1e-9  # relative, of times and slide-to-roll ratios
-_ZERO = 273.15  # K, of degC
 
 # heading, unit people read, variable, factor from SI, digits
 _COLUMNS = (
@@ -145,7 +142,7 @@ def _table(dataset: xr.Dataset, found: list[Sweep]) -> list[str]:
         [
             f"{times[row] / 60.0:.2f}",
             *(_told(dataset, name, row, factor, digits) for _, _, name, factor, digits in _COLUMNS),
-            f"{dataset['bath.temperature_oil'].values[row] - _ZERO:.2f}",
+            f"{dataset['bath.temperature_oil'].values[row] - CELSIUS:.2f}",
         ]
         for row in rows
     ]
@@ -193,9 +190,9 @@ def _energy(assembly: Assembly, dataset: xr.Dataset) -> Iterator[str]:
     )
 
 
-def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Draw overview.png into the folder."""
-    return files.write({"overview": overview(assembly, dataset)}, folder)
+def pictures(assembly: Assembly, dataset: xr.Dataset) -> dict[str, Sheet]:
+    """Return the pictures by name."""
+    return {"overview": overview(assembly, dataset)}
 
 
 def overview(assembly: Assembly, dataset: xr.Dataset) -> Sheet:
@@ -219,7 +216,7 @@ def _temperatures(dataset: xr.Dataset, clock: Unit) -> Chart:
     names = [str(name) for name in dataset.data_vars if str(name).startswith("bath.temperature_")]
     lines = [
         Line(
-            name.removeprefix("bath.temperature_"), clock.of(dataset["time"].values), dataset[name].values - _ZERO,
+            name.removeprefix("bath.temperature_"), clock.of(dataset["time"].values), dataset[name].values - CELSIUS,
             colour=colour,
         )
         for name, colour in zip(names, (BLACK, BLUE, RED, GREEN), strict=False)

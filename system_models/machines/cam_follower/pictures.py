@@ -1,19 +1,22 @@
 """Pictures of the run of a cam and its follower."""
 
 import numpy as np
+import xarray as xr
 
 from ...charts.chart import BLACK, Array, Chart, Line, Sheet
-from ...charts.units import time_unit
-from ...run.panels import CELSIUS, FILM, FRICTION, LAMBDA, TRIBOFILM, WEAR
+from ...charts.units import CELSIUS, time_unit
+from ...run.panels import FILM, FRICTION, LAMBDA, TRIBOFILM, WEAR
+from ..assembly import Assembly
 from .record import Record
 
 _NM, _MM = 1e9, 1e3
 _BODIES = ("cam", "follower")
 
 
-def sheets(record: Record) -> dict[str, Sheet]:
+def sheets(assembly: Assembly, dataset: xr.Dataset) -> dict[str, Sheet]:
     """Return the pictures by name."""
-    title = record.dataset.attrs.get("title", "")
+    record = Record(assembly, dataset)
+    title = dataset.attrs.get("title", "")
     return {
         "overview": Sheet(_last_turn(record), title, height=2.4),
         "time": Sheet(_against_time(record), title, height=3.0),

@@ -4,11 +4,13 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
+import xarray as xr
 
 from ...charts.chart import BLACK, BLUE, COLOURS, NOTHING, RED, Chart, Line, Sheet, shades
 from ...charts.scale import scale_of
-from ...charts.units import time_unit
-from ...run.panels import CELSIUS, FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR
+from ...charts.units import CELSIUS, time_unit
+from ...run.panels import FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR
+from ..assembly import Assembly
 from .path import Array, named_points
 from .record import Record, Stage
 from .safety import Safeties
@@ -21,8 +23,9 @@ _FACTORS = {value: f"{value:g}" for value in (0.5, 1.0, 2.0, 5.0, 10.0, 20.0)}  
 _Curve = Callable[[Stage], Array]  # values at the stations at the end of a stage
 
 
-def sheets(record: Record) -> dict[str, Sheet]:
+def sheets(assembly: Assembly, dataset: xr.Dataset) -> dict[str, Sheet]:
     """Return the pictures by name: the run at a glance, all along the path of contact, all against time, safety."""
+    record = Record(assembly, dataset)
     along, time = _along(record), _against_time(record)
     overview = [*(along[name] for name in ("pressure", "lambda", "friction", "flash")), *_pair(along, "wear")]
     path = [along[name] for name in ("load", "pressure", "film", "lambda", "friction", "flash")]
@@ -36,7 +39,7 @@ def sheets(record: Record) -> dict[str, Sheet]:
     keys = {name: _stages(record) if name != "time" else [] for name in found}
     return {
         name: Sheet(
-            charts, record.dataset.attrs.get("title", ""), height=2.5, key=keys[name],
+            charts, dataset.attrs.get("title", ""), height=2.5, key=keys[name],
             key_title="along the path: at the end of each stage",
         )
         for name, charts in found.items()

@@ -1,16 +1,13 @@
 """The report of a gear pair's run: load stages beside the textbook, safety factors, wear along the flanks, heat."""
 
 from dataclasses import asdict
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
-from ...charts import files
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
 from ..report import heat_stored
-from . import pictures as gear_pair_pictures
 from .path import Array
 from .rating import Rating
 from .record import Record, Stage
@@ -53,11 +50,6 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     if not record.stages:
         return ["The duty has no stretch in which the gears turn under load.", *_heat(record)]
     return [*_table(record), "", *_notes(record), *_wear(record), *_heat(record), "", *_safety(record)]
-
-
-def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Write the pictures: the run at a glance, all along the path of contact, all against time."""
-    return files.write(gear_pair_pictures.sheets(Record(assembly, dataset)), folder)
 
 
 def _table(record: Record) -> list[str]:
