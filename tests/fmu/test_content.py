@@ -291,7 +291,7 @@ def numbers(line: str) -> list[str]:
 
 @pytest.mark.parametrize(
     "figures",
-    [*(table for tables in measured.ERRORS.values() for table in tables), *measured.COSTS.values()],
+    [each for kind in ("errors", "costs") for tables in measured.tables(kind).values() for each in tables],
     ids=lambda table: table.title[:30],
 )
 def test_measured_figures_are_those_of_the_benchmarks_page(figures):

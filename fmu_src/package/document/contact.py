@@ -182,8 +182,7 @@ def errors(scene: Scene) -> Iterator[str]:
         "error_load_ratio is that of contact_load_ratio, absolute. " + LEVELS[scene.film.fidelity].errors
     )
     yield paragraph("Measured errors, and the command of the repository that measures them:")
-    for found in measured.ERRORS[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)]:
-        yield _measured(found)
+    yield from _measured(scene, "errors")
 
 
 def assumptions(scene: Scene) -> Iterator[str]:
@@ -205,9 +204,11 @@ def assumptions(scene: Scene) -> Iterator[str]:
         yield paragraph("The scene has no intervals.")
 
 
-def _measured(found: measured.Table) -> str:
-    title = f"<p>{text(found.title)} (<code>{text(found.command)}</code>):</p>"
-    return title + table(found.head, found.rows)
+def _measured(scene: Scene, kind: str) -> Iterator[str]:
+    """Yield measured errors or costs of a scene's level."""
+    for found in measured.tables(kind)[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)]:
+        yield f"<p>{text(found.title)} (<code>{text(found.command)}</code>):</p>"
+        yield table(found.head, found.rows)
 
 
 def steps(scene: Scene) -> Iterator[str]:
@@ -220,4 +221,4 @@ def steps(scene: Scene) -> Iterator[str]:
         "may differ in length; any length is allowed, zero too."
     )
     yield paragraph(LEVELS[scene.film.fidelity].steps(scene))
-    yield _measured(measured.COSTS[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)])
+    yield from _measured(scene, "costs")
