@@ -10,7 +10,7 @@ import xarray as xr
 
 from fmu_src.html.markup import paragraph, section, text
 
-from ..charts.chart import Array, Chart, Line
+from ..charts.chart import Array, Chart, Line, shades
 from ..charts.svg import figures, safe_json
 from ..charts.units import time_unit, unit_for
 from ..run.maps import ALONG, TIME
@@ -208,15 +208,14 @@ def _top(shown: Array, key: str) -> float:
 
 
 def _stops(name: str) -> list[list[int]]:
-    """Return colours of a map of matplotlib, of equal distance."""
-    from matplotlib import colormaps
-
-    return [[round(255 * part) for part in colormaps[name](k / (_STOPS - 1))[:3]] for k in range(_STOPS)]
+    """Return the red, green and blue of colours of a map of matplotlib, of equal distance."""
+    return [[int(each[k : k + 2], 16) for k in (1, 3, 5)] for each in shades(_STOPS, name, 0.0, 1.0)]
 
 
 def _profiles(dataset: xr.Dataset) -> str:
     """Return the section of profiles across the track, mean along it, and of cross-sections of the surfaces."""
-    some = dataset.isel({TIME: sorted({round(k) for k in np.linspace(0, dataset.sizes[TIME] - 1, _PROFILES)})})
+    last = dataset.sizes[TIME] - 1
+    some = dataset.isel({TIME: sorted({round(k) for k in np.linspace(min(1, last), last, _PROFILES)})})
     every = [(kind, body) for kind in KINDS for body in (1, 2) if dataset[f"{kind}_profile_{body}"].values.any()]
     charts = [*(profile(some, kind, body) for kind, body in every), *(cross_section(dataset, body) for body in (1, 2))]
     return section(

@@ -5,7 +5,7 @@ import json
 from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -22,9 +22,6 @@ from .fit import Fit
 from .fit_data import words
 from .fit_estimate import COVERED, Limits
 from .fit_model import Constant
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _PERCENT = f"{100.0 * COVERED:.0f} %"
 
@@ -220,11 +217,6 @@ def _toml(values: Mapping[str, Any], path: str) -> Iterator[str]:
 
 def _key(text: str) -> str:
     return text if text.replace("_", "").isalnum() else json.dumps(text)
-
-
-def figure(fit: Fit) -> "Figure":
-    """Return the picture of `sheet` as a figure of matplotlib."""
-    return files.figure(sheet(fit))
 
 
 def sheet(fit: Fit) -> Sheet:

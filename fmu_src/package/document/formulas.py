@@ -13,7 +13,6 @@ from ...html.markup import equation, heading, paragraph, source, table
 
 def equations(scene: Scene) -> Iterator[str]:
     """Yield the equations of level, shape and laws, with sources, and the options of the scene."""
-    yield paragraph("The laws of this scene, each with its source. The table of parameters explains their symbols.")
     film = scene.film
     for shown in film.governing(scene.geometry, scene.lubricant):
         yield from _titled(shown)

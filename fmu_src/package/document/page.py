@@ -8,13 +8,15 @@ from ...html.page import whole
 from ...runtime.resources import MODEL
 from . import contact, formulas, interface
 
+_SYMBOLS = "The laws of this scene, each with its source. The table of parameters explains their symbols."
+
 
 def documentation(scene: Scene, flavour: Flavour, reference: bool, fmi: Version = 2) -> bytes:
     """Return the page of a scene's FMU, UTF-8; `reference`: the FMU carries reference data."""
     sections = {
         "contact": ("The contact", contact.data(scene, flavour)),
         "signs": ("Signs and directions", contact.signs(scene)),
-        "equations": ("Equations", formulas.equations(scene)),
+        "equations": ("Equations", [paragraph(_SYMBOLS), *formulas.equations(scene)]),
         "validity": ("Range of validity", contact.validity(scene)),
         "errors": ("Errors of the outputs", contact.errors(scene)),
         "assumed": ("What is assumed, and what it is worth", contact.assumptions(scene)),
