@@ -26,9 +26,8 @@ def sections(run: Run) -> str:
         return ""
     names = json.loads(run.dataset.attrs[ATTRIBUTE])["members"]
     rows = [
-        [f"{heading} [{unit}]" if unit else heading]
-        + ["–" if math.isnan(number) else f"{number:.{digits}f}" for number in numbers]
-        for heading, unit, numbers, digits in ends_of(run.dataset, run.members)
+        [title, *("–" if math.isnan(number) else f"{number:.{digits}f}" for number in numbers)]
+        for title, numbers, digits in ends_of(run.dataset, run.members)
     ]
     head = ["at the end", *(each.replace("+-", "±") for each in HEADINGS), *names]
     drawn = [

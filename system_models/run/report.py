@@ -9,29 +9,28 @@ import xarray as xr
 
 from ..charts import files
 from ..charts.chart import Sheet, spans_of
-from ..charts.half_widths import cell
+from ..charts.half_widths import Column
 from ..store.results import ASSUMED, half_width
 from .panels import FRICTION, LAMBDA, PRESSURE, ROUGHNESS, TRIBOFILM, WEAR, Panel, chart
 
-# heading, unit people read, variable, factor from SI, digits
 COLUMNS = (
-    ("friction", "", "friction_coefficient", 1.0, 4),
-    ("h_c", "nm", "h_c", 1e9, 2),
-    ("lambda", "", "lambda_ratio", 1.0, 3),
-    ("tribofilm 1", "nm", "tribofilm_1", 1e9, 2),
-    ("tribofilm 2", "nm", "tribofilm_2", 1e9, 2),
-    ("wear 1", "nm", "wear_depth_1", 1e9, 2),
-    ("wear 2", "nm", "wear_depth_2", 1e9, 2),
-    ("A_c", "", "contact_area_ratio", 1.0, 3),
-    ("W_c", "", "contact_load_ratio", 1.0, 3),
+    Column("friction", "", "friction_coefficient", 1.0, 4),
+    Column("h_c", "nm", "h_c", 1e9, 2),
+    Column("lambda", "", "lambda_ratio", 1.0, 3),
+    Column("tribofilm 1", "nm", "tribofilm_1", 1e9, 2),
+    Column("tribofilm 2", "nm", "tribofilm_2", 1e9, 2),
+    Column("wear 1", "nm", "wear_depth_1", 1e9, 2),
+    Column("wear 2", "nm", "wear_depth_2", 1e9, 2),
+    Column("A_c", "", "contact_area_ratio", 1.0, 3),
+    Column("W_c", "", "contact_load_ratio", 1.0, 3),
 )
 _BELOW = (  # of runs with stresses; those of damage where there is any
-    ("von Mises", "GPa", "von_mises_max", 1e-9, 3),
-    ("at depth", "um", "von_mises_depth", 1e6, 1),
-    ("damage 1", "", "damage_1", 1.0, 4),
-    ("damage 2", "", "damage_2", 1.0, 4),
-    ("pitted 1", "%", "micropitted_area_1", 100.0, 2),
-    ("pitted 2", "%", "micropitted_area_2", 100.0, 2),
+    Column("von Mises", "GPa", "von_mises_max", 1e-9, 3),
+    Column("at depth", "um", "von_mises_depth", 1e6, 1),
+    Column("damage 1", "", "damage_1", 1.0, 4),
+    Column("damage 2", "", "damage_2", 1.0, 4),
+    Column("pitted 1", "%", "micropitted_area_1", 100.0, 2),
+    Column("pitted 2", "%", "micropitted_area_2", 100.0, 2),
 )
 _OFF = {"tribofilm": ("tribofilm_1", "tribofilm_2"), "wear": ("wear_depth_1", "wear_depth_2")}  # columns of a law
 _WITH_ERRORS = {  # in the table; of the others the result has them
@@ -66,9 +65,9 @@ def table(dataset: xr.Dataset, width: float = math.inf) -> str:
     left_out = {name for law in _off(dataset) for name in _OFF[law]}
     columns = [["time", "min", *_apart(time[rows] / 60.0)]]
     columns += [
-        [heading, unit, *_stated(dataset, name, rows, factor, digits)]
-        for heading, unit, name, factor, digits in (*COLUMNS, *_below(dataset))
-        if name not in left_out
+        [each.heading, each.unit, *_stated(dataset, each, rows)]
+        for each in (*COLUMNS, *_below(dataset))
+        if each.name not in left_out
     ]
     padded = [[cell.rjust(max(map(len, column))) for cell in column] for column in columns]
     parts = [padded[:1]]
@@ -85,23 +84,19 @@ def _off(dataset: xr.Dataset) -> list[str]:
     return [law for law in _OFF if scene.get(law, {}).get("model") == "none"]
 
 
-def _below(dataset: xr.Dataset) -> list[tuple[str, str, str, float, int]]:
+def _below(dataset: xr.Dataset) -> list[Column]:
     """Return the columns of stress and damage that are not zero throughout."""
-    return [column for column in _BELOW if column[2] in dataset and dataset[column[2]].values.any()]
+    return [each for each in _BELOW if each.name in dataset and dataset[each.name].values.any()]
 
 
-def _stated(dataset: xr.Dataset, name: str, rows: list[int], factor: float, digits: int) -> list[str]:
+def _stated(dataset: xr.Dataset, column: Column, rows: list[int]) -> list[str]:
     """Return values as text, each with the half width of its error where one is stated."""
-    values = factor * dataset[name].values[rows]
-    half = half_width(dataset, name) if name in _WITH_ERRORS else None
-    if half is None:
-        return [f"{value:.{digits}f}" for value in values]
-    halves = factor * half[rows]
-    texts = [cell(name, value, half, digits) for value, half in zip(values, halves, strict=True)]
-    worth = dataset.coords.get(f"{name}{ASSUMED}")
+    half = half_width(dataset, column.name) if column.name in _WITH_ERRORS else None
+    texts = column.cells(dataset[column.name].values[rows], None if half is None else half[rows])
+    worth = dataset.coords.get(f"{column.name}{ASSUMED}") if half is not None else None
     if worth is None:
         return texts
-    return [f"{text} ({factor * each:.2g})" for text, each in zip(texts, worth.values[rows], strict=True)]
+    return [f"{text} ({column.factor * each:.2g})" for text, each in zip(texts, worth.values[rows], strict=True)]
 
 
 def _apart(minutes: np.ndarray) -> list[str]:

@@ -13,7 +13,7 @@ from contact_core.state import RangeFlag
 
 from ..charts import files
 from ..charts.chart import Chart, Line, Sheet
-from ..charts.half_widths import SHARES, UNKNOWN, cell, says_nothing, with_error
+from ..charts.half_widths import SHARES, UNKNOWN, Column, says_nothing, with_error
 from ..run.cosim_report import aligned
 from ..run.flags import by_how_much
 from ..run.report import COLUMNS
@@ -28,7 +28,6 @@ OUTPUTS = (  # in tables and pictures
     *("tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2"),
 )
 _MOST_ROWS = 40
-Column = tuple[str, str, str, float, int]  # heading, unit people read, variable, factor from SI, digits
 
 
 def shown(dataset: xr.Dataset) -> list[Column]:
@@ -37,7 +36,7 @@ def shown(dataset: xr.Dataset) -> list[Column]:
     return [
         column
         for column in COLUMNS
-        if column[2] in OUTPUTS and (np.nan_to_num(last[column[2]].values).any() or column[0] in open_)
+        if column.name in OUTPUTS and (np.nan_to_num(last[column.name].values).any() or column.heading in open_)
     ]
 
 
@@ -49,25 +48,19 @@ def table(plan: Plan, dataset: xr.Dataset) -> str:
     if plan.method == "indices" or len(points) > _MOST_ROWS:
         return _spread(last, dataset)
     columns = [[factor.key, *(point.settings[factor.key] for point in points)] for factor in plan.factors]
-    for heading, unit, name, factor, digits in shown(dataset):
-        values = factor * last[name].values.ravel()
-        halves = (
-            factor * last.coords[f"{name}{ERROR}"].values.ravel() if f"{name}{ERROR}" in last.coords else 0 * values
-        )
-        cells = [
-            "refused" if reason else cell(name, value, half, digits)
-            for value, half, reason in zip(values, halves, flat, strict=True)
-        ]
-        columns.append([f"{heading} [{unit}]" if unit else heading, *cells])
+    for each in shown(dataset):
+        half = last.coords.get(f"{each.name}{ERROR}")
+        cells = each.cells(last[each.name].values.ravel(), None if half is None else half.values.ravel())
+        columns.append([each.title, *("refused" if why else text for text, why in zip(cells, flat, strict=True))])
     return _aligned(columns)
 
 
 def _spread(last: xr.Dataset, dataset: xr.Dataset) -> str:
     columns: list[list[str]] = [["output"], ["least"], ["2.5 %"], ["median"], ["97.5 %"], ["largest"]]
-    for heading, unit, name, factor, digits in shown(dataset):
-        values = factor * last[name].values[np.isfinite(last[name].values)]
-        cells = [f"{value:.{digits}f}" for value in np.quantile(values, (0.0, 0.025, 0.5, 0.975, 1.0))]
-        for column, text in zip(columns, [f"{heading} [{unit}]" if unit else heading, *cells], strict=True):
+    for each in shown(dataset):
+        values = last[each.name].values[np.isfinite(last[each.name].values)]
+        cells = each.cells(np.quantile(values, (0.0, 0.025, 0.5, 0.975, 1.0)))
+        for column, text in zip(columns, [each.title, *cells], strict=True):
             column.append(text)
     return _aligned(columns)
 
@@ -146,20 +139,20 @@ def _unknown(dataset: xr.Dataset) -> dict[str, int]:
 def _means(plan: Plan, dataset: xr.Dataset) -> list[str]:
     """Return a heading and the table of means over patches, a row for each choice of the other keys."""
     keys = patches_of(plan)
-    found = averaged(plan, ends(dataset), [column[2] for column in shown(dataset)])
+    found = averaged(plan, ends(dataset), [column.name for column in shown(dataset)])
     others = [factor for factor in plan.grid if factor.key not in keys]
     counts = found["count"].values.ravel()
     if plan.sampled or counts.size > _MOST_ROWS:
         return []
     rows = list(itertools.product(*(factor.choices for factor in others)))
     columns = [[factor.key, *(row[k] for row in rows)] for k, factor in enumerate(others)]
-    for heading, unit, name, factor, digits in shown(dataset):
-        mean, band, sd = (factor * found[f"{name}{end}"].values.ravel() for end in ("", "_band", "_sd"))
+    for each in shown(dataset):
+        mean, band, sd = (each.factor * found[f"{each.name}{end}"].values.ravel() for end in ("", "_band", "_sd"))
         cells = [
-            f"{with_error(m, b, digits)} (sd {s:.2g})" if n > 1 else "one patch"
+            f"{with_error(m, b, each.digits)} (sd {s:.2g})" if n > 1 else "one patch"
             for m, b, s, n in zip(mean, band, sd, counts, strict=True)
         ]
-        columns.append([f"{heading} [{unit}]" if unit else heading, *cells])
+        columns.append([each.title, *cells])
     heading = (
         f"Mean over {int(counts.max())} of {', '.join(keys)}, its band of 95 % (Student's t), and the standard "
         "deviation between them; each run's stated error comes on top."
@@ -198,24 +191,20 @@ def write_picture(plan: Plan, dataset: xr.Dataset, file: Path) -> Path:
     return files.save(Sheet(charts, title, across, 4.2), file, dpi=120)
 
 
-def _label(column: Column) -> str:
-    return f"{column[0]} [{column[1]}]" if column[1] else column[0]
-
-
 def _dots(last: xr.Dataset, key: Factor, column: Column) -> Chart:
     """Return an output over a sampled key, one dot with its error for each sample."""
-    _, _, name, factor, _ = column
+    name, factor = column.name, column.factor
     values = factor * last[name].transpose("sample", ...).values.reshape(last.sizes["sample"], -1)
     where, half = np.repeat(last[key.key].values[:, None], values.shape[1], axis=1), last.coords.get(f"{name}{ERROR}")
     bars = None if half is None else factor * half.transpose("sample", ...).values.ravel()
     dots = Line("", where.ravel(), values.ravel(), bars, style="o")
     label = f"{key.key} [{key.unit}]" if key.unit else key.key
-    return Chart("", label, _label(column), [dots], logarithmic_x=key.logarithmic, from_zero=False)
+    return Chart("", label, column.title, [dots], logarithmic_x=key.logarithmic, from_zero=False)
 
 
 def _curves(plan: Plan, last: xr.Dataset, column: Column, keyed: bool) -> Chart:
     """Return an output over the longest axis of the grid, a curve for each choice of the others."""
-    _, _, name, factor, _ = column
+    name, factor = column.name, column.factor
     along = max(plan.grid, key=lambda each: len(each.choices))
     others = [each for each in plan.grid if each is not along]
     numbers = np.issubdtype(last[along.key].dtype, np.number)
@@ -228,4 +217,4 @@ def _curves(plan: Plan, last: xr.Dataset, column: Column, keyed: bool) -> Chart:
         lines.append(Line(label if keyed else "", where, factor * values, width, place, style="o-"))
     x_label = f"{along.key} [{last[along.key].attrs['units']}]" if numbers else along.key
     names = {} if numbers else dict(zip(where.tolist(), map(str, along.choices), strict=True))
-    return Chart("", x_label, _label(column), lines, from_zero=False, x_names=names)
+    return Chart("", x_label, column.title, lines, from_zero=False, x_names=names)

@@ -10,11 +10,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ...charts.chart import BLACK, BLUE, GREEN, GREY, RED, Chart, Line, Sheet, shades, spans_of
-from ...charts.half_widths import cell
+from ...charts.half_widths import Column
 from ...charts.units import CELSIUS, Unit, time_unit
 from ...run.cosim_report import aligned
 from ...run.panels import FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR, chart
-from ...store.results import ERROR
+from ...store.results import half_width
 from ..assembly import Assembly
 from ..report import heat_stored
 
@@ -22,18 +22,17 @@ _SHARES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0)  # of the run:
 _LEAST = 4  # speeds of a curve
 _SAME = 1e-9  # relative, of times and slide-to-roll ratios
 
-# heading, unit people read, variable, factor from SI, digits
 _COLUMNS = (
-    ("friction", "", "contact.friction_coefficient", 1.0, 4),
-    ("h_c", "nm", "contact.h_c", 1e9, 1),
-    ("lambda", "", "contact.lambda_ratio", 1.0, 3),
-    ("tribofilm 1", "nm", "contact.tribofilm_1", 1e9, 1),
-    ("tribofilm 2", "nm", "contact.tribofilm_2", 1e9, 1),
-    ("wear 1", "nm", "contact.wear_depth_1", 1e9, 1),
-    ("wear 2", "nm", "contact.wear_depth_2", 1e9, 1),
-    ("rough 1", "nm", "contact.roughness_1", 1e9, 1),
-    ("rough 2", "nm", "contact.roughness_2", 1e9, 1),
-    ("loss", "W", "contact.power_loss", 1.0, 3),
+    Column("friction", "", "contact.friction_coefficient", 1.0, 4),
+    Column("h_c", "nm", "contact.h_c", 1e9, 1),
+    Column("lambda", "", "contact.lambda_ratio", 1.0, 3),
+    Column("tribofilm 1", "nm", "contact.tribofilm_1", 1e9, 1),
+    Column("tribofilm 2", "nm", "contact.tribofilm_2", 1e9, 1),
+    Column("wear 1", "nm", "contact.wear_depth_1", 1e9, 1),
+    Column("wear 2", "nm", "contact.wear_depth_2", 1e9, 1),
+    Column("rough 1", "nm", "contact.roughness_1", 1e9, 1),
+    Column("rough 2", "nm", "contact.roughness_2", 1e9, 1),
+    Column("loss", "W", "contact.power_loss", 1.0, 3),
 )
 
 LEGEND = {
@@ -134,27 +133,14 @@ def _table(dataset: xr.Dataset, found: list[Sweep]) -> list[str]:
     times, usable = dataset["time"].values, np.flatnonzero(_rubbing(dataset, found))
     wanted = times[usable[0]] + np.array(_SHARES) * (times[usable[-1]] - times[usable[0]])
     rows = sorted({int(usable[np.abs(times[usable] - time).argmin()]) for time in wanted})
-    heads = [
-        ["time", *(heading for heading, *_ in _COLUMNS), "oil"],
-        ["min", *(unit for _, unit, *_ in _COLUMNS), "degC"],
-    ]
-    body = [
-        [
-            f"{times[row] / 60.0:.2f}",
-            *(_told(dataset, name, row, factor, digits) for _, _, name, factor, digits in _COLUMNS),
-            f"{dataset['bath.temperature_oil'].values[row] - CELSIUS:.2f}",
-        ]
-        for row in rows
-    ]
-    return aligned([*heads, *body], 0)
-
-
-def _told(dataset: xr.Dataset, name: str, row: int, factor: float, digits: int) -> str:
-    """Return a value as text, with the half width of its error where one is stated."""
-    value, half = factor * float(dataset[name].values[row]), dataset.variables.get(f"{name}{ERROR}")
-    if half is None:
-        return f"{value:.{digits}f}"
-    return cell(name.rpartition(".")[2], value, factor * float(half.values[row]), digits)
+    columns = [["time", "min", *(f"{time / 60.0:.2f}" for time in times[rows])]]
+    for each in _COLUMNS:
+        half = half_width(dataset, each.name)
+        cells = each.cells(dataset[each.name].values[rows], None if half is None else half[rows])
+        columns.append([each.heading, each.unit, *cells])
+    oil = dataset["bath.temperature_oil"].values[rows] - CELSIUS
+    columns.append(["oil", "degC", *(f"{value:.2f}" for value in oil)])
+    return aligned([list(row) for row in zip(*columns, strict=True)], 0)
 
 
 def _curves(dataset: xr.Dataset, found: list[Sweep]) -> Iterator[str]:
