@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from importlib.resources import files
 
@@ -36,7 +36,7 @@ def figure(chart: Chart, key: str) -> str:
     )
 
 
-def figures(charts: Sequence[Chart], key: str) -> str:
+def figures(charts: Iterable[Chart], key: str) -> str:
     """Return charts beside each other; nothing for none."""
     drawn = "".join(figure(chart, f"{key}-{k}") for k, chart in enumerate(charts))
     return f'<div class="charts">{drawn}</div>' if drawn else ""

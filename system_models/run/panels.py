@@ -151,8 +151,9 @@ def apart(panel: Panel) -> Iterator[tuple[str, str]]:
 def unit_of(columns: Sequence[tuple[xr.Dataset, str]], quantity: str, rows: slice = _ALL) -> Unit:
     """Return the unit in which variables of the same quantity are read, by some of their rows."""
     largest = np.concatenate([values(dataset, name)[rows] for dataset, name in columns])
-    known, (dataset, name) = TABLE.get(quantity), columns[0]
-    return unit_for(dataset.variables[name].attrs.get("units", "1"), largest, bool(known and known.relative))
+    dataset, name = columns[0]
+    difference = TABLE[quantity].relative if quantity in TABLE else "rise" in quantity
+    return unit_for(dataset.variables[name].attrs.get("units", "1"), largest, difference)
 
 
 def values(dataset: xr.Dataset, name: str) -> Array:
