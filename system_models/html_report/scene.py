@@ -134,10 +134,6 @@ def _of_machine(run: Run) -> str:
         table_ = scene.to_dict()
         tables.append(folded(f"Scene of {', '.join(names)}", _name(table_), *_tables(table_)))
     given = section(
-        "scene",
-        "The machine as it was run",
-        table(["part", "kind", "what it is"], rows),
-        *tables,
-        *_assumed(run),
+        "scene", "The machine as it was run", table(["part", "kind", "what it is"], rows), *tables, *_assumed(run)
     )
     return given + modelled(next(iter(scenes.values()))[0])

@@ -6,7 +6,8 @@
     interface   sections on the FMU: status, variables, state, log, requirements, licence
     levels      sentences and rows that differ between the fidelity levels
     measured    measured errors and costs
-    drawings    two drawings
+
+`measured.toml` has the figures, `signs.svg` and `steps.svg` are the two drawings.
 
 A new law, shape or output needs no change here: its record carries what the page shows of it.
 """

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator
+from importlib.resources import files
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from contact_core.scene import Scene, SelfAffine, Surface
 from ...flavours import Flavour
 from ...html.markup import bullets, heading, number, paragraph, table, text
 from ...variables import FIDELITY
-from . import drawings, measured
+from . import measured
 from .levels import LEVELS
 
 _CELSIUS = 273.15  # K
@@ -85,9 +86,13 @@ def _face(scene: Scene) -> Iterator[tuple[str, str]]:
         yield from LEVELS[scene.film.fidelity].size(scene)
 
 
+def _drawing(name: str) -> str:
+    return files(__package__).joinpath(f"{name}.svg").read_text("utf-8")
+
+
 def signs(scene: Scene) -> Iterator[str]:
     """Yield the section on signs and directions."""
-    yield drawings.SIGNS
+    yield _drawing("signs")
     spins = "spin" not in scene.geometry.lacks
     yield bullets(
         (
@@ -213,7 +218,7 @@ def _measured(scene: Scene, kind: str) -> Iterator[str]:
 
 def steps(scene: Scene) -> Iterator[str]:
     """Yield the section on communication steps."""
-    yield drawings.STEPS
+    yield _drawing("steps")
     yield paragraph(
         "A communication step from t to t + h holds the inputs as set before it; the outputs are those at t + h. "
         "Between steps the outputs depend on the state alone: a new input takes effect in the next step. Coupled to "

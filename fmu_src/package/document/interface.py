@@ -111,11 +111,7 @@ def _events(flavour: Flavour) -> tuple[tuple[str, str, str], ...]:
             _REFUSED[flavour],
             "valid is false; nothing changes, the log gives the reason",
         ),
-        (
-            "a state that cannot be used",
-            _REFUSED[flavour],
-            f"{_AFTER_STATE[flavour]}, the log gives the reason",
-        ),
+        ("a state that cannot be used", _REFUSED[flavour], f"{_AFTER_STATE[flavour]}, the log gives the reason"),
         *_FAILURES[flavour],
     )
 

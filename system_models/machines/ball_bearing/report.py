@@ -179,7 +179,7 @@ def _rated_by(rated: RatedRun, row: int) -> list[str]:
         f"C_r = {rated_with}, C_u = {1e-3 * rated.fatigue_load_limit:.2f} kN, contamination e_C = "
         f"{rated.given.contamination:g}. lambda = {rated.film_ratio[row]:.3g}: our h_c over the undeformed roughness "
         "of the loaded class that has least. Stress integral: L10r of smooth contacts with our friction, no a_ISO. "
-        f"The run takes {rated.consumed(rated.reference):.2g} of L10r.",
+        f"The run takes {rated.consumed(rated.reference):.2g} of L10r."
     ]
     for kappa, name in ((rated.kappa_of_viscosity, "by viscosity"), (rated.kappa_of_film, "by lambda")):
         below = (kappa < rating.LEAST_KAPPA) & rated.run.runs
