@@ -43,8 +43,8 @@ def figure(sheet: Sheet) -> "Figure":
     """Return a sheet as a figure of matplotlib."""
     from matplotlib.figure import Figure
 
-    columns = min(sheet.columns, max(len(sheet.charts), 1))
-    rows = -(-len(sheet.charts) // columns)
+    columns = max(min(sheet.columns, len(sheet.charts)), 1)
+    rows = max(-(-len(sheet.charts) // columns), 1)
     heights = sheet.heights or [sheet.height] * rows
     more = _TITLE * (bool(sheet.title) + bool(sheet.key))
     drawn = Figure(figsize=(columns * sheet.width, sum(heights) + more), layout="constrained")
