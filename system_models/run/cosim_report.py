@@ -1,14 +1,12 @@
 """The report of a simulated system: two tables, closing lines, and one picture."""
 
 import json
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..charts import files
 from ..charts.chart import Chart, Line, Sheet
 from ..fmu.printable import printable
 
@@ -148,11 +146,6 @@ def _warnings(dataset: xr.Dataset) -> list[str]:
 def _first(dataset: xr.Dataset, name: str) -> str:
     above = dataset["time"].values[dataset[name].values > 1.0]
     return f"{above[0]:g} s" if len(above) else "the end"
-
-
-def write_overview(dataset: xr.Dataset, path: Path) -> Path:
-    """Draw the recorded variables against time, each in a panel of its own, and the step if it changes."""
-    return files.save(overview(dataset), path)
 
 
 def overview(dataset: xr.Dataset) -> Sheet:

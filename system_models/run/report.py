@@ -2,12 +2,10 @@
 
 import json
 import math
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
-from ..charts import files
 from ..charts.chart import Sheet, spans_of
 from ..charts.half_widths import Column
 from ..store.results import ASSUMED, half_width
@@ -147,11 +145,6 @@ def _blocks(last: xr.Dataset) -> list[str]:
 def invalid_rows(dataset: xr.Dataset) -> int:
     """Return the number of rows that the FMU called invalid."""
     return int((~dataset["valid"].values).sum())
-
-
-def write_overview(dataset: xr.Dataset, path: Path) -> Path:
-    """Draw the run into a PNG file and return its path."""
-    return files.save(overview(dataset), path)
 
 
 def overview(dataset: xr.Dataset) -> Sheet:

@@ -1,14 +1,11 @@
 """The report of Stribeck curves: a table of friction, the shift of the curves, and one picture."""
 
-from pathlib import Path
-
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from contact_core.state import RangeFlag
 
-from ..charts import files
 from ..charts.chart import GREY, NOTHING, Chart, Line, Sheet, shades
 from ..store.results import ERROR
 from .cosim_report import aligned
@@ -99,11 +96,6 @@ def _known(dataset: xr.Dataset) -> str:
 def invalid_points(dataset: xr.Dataset) -> int:
     """Return the number of points without an answer."""
     return int((~dataset["valid"].values).sum())
-
-
-def write_figure(dataset: xr.Dataset, path: Path) -> Path:
-    """Draw the curves into a PNG file and return its path."""
-    return files.save(sheet(dataset), path)
 
 
 def sheet(dataset: xr.Dataset) -> Sheet:

@@ -2,13 +2,11 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from ..charts import files
 from ..charts.chart import COLOURS, GREY, Array, Chart, Line, Map, Sheet, shades
 from ..charts.units import time_unit, unit_for
 from .maps import ALONG, TIME
@@ -25,11 +23,6 @@ _COVERAGE = Panel(
     "Coverage of the track", ("coverage_1", "coverage_2"), ("body 1", "body 2"), "coverage", "", share=True
 )
 KINDS = {"tribofilm": ("Tribofilm", "thickness"), "wear": ("Wear", "depth"), "plastic": ("Plastic depth", "depth")}
-
-
-def write(dataset: xr.Dataset, maps: xr.Dataset, path: Path) -> Path:
-    """Draw fields of a run, and its time series, into a PNG file and return its path."""
-    return files.save(picture(dataset, maps), path, dpi=140)
 
 
 def picture(dataset: xr.Dataset, maps: xr.Dataset) -> Sheet:

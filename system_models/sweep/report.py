@@ -3,7 +3,6 @@
 import itertools
 import textwrap
 from collections.abc import Callable, Iterator
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -11,7 +10,6 @@ import xarray as xr
 from contact_core.scene import Scene
 from contact_core.state import RangeFlag
 
-from ..charts import files
 from ..charts.chart import Chart, Line, Sheet
 from ..charts.half_widths import SHARES, UNKNOWN, Column, says_nothing, with_error
 from ..run.cosim_report import aligned
@@ -178,8 +176,8 @@ def _known(dataset: xr.Dataset) -> list[str]:
     return [f"A run alone is known to, at its end (median): {', '.join(parts)}."] if parts else []
 
 
-def write_picture(plan: Plan, dataset: xr.Dataset, file: Path) -> Path:
-    """Write the picture and return its path: a panel for each output, of samples one for each key that they vary."""
+def sheet(plan: Plan, dataset: xr.Dataset) -> Sheet:
+    """Return the picture: a panel for each output, of samples one for each key that they vary."""
     last, columns = ends(dataset), shown(dataset)
     if plan.sampled:
         charts = [_dots(last, each, column) for column in columns for each in plan.sampled]
@@ -188,7 +186,7 @@ def write_picture(plan: Plan, dataset: xr.Dataset, file: Path) -> Path:
     across = len(plan.sampled) if plan.sampled else min(3, len(columns))
     bars = "at the end of each run; bands and bars: stated errors (95 %)"
     title = f"{textwrap.fill(dataset.attrs['title'], 40 * across)}\n{bars}"
-    return files.save(Sheet(charts, title, across, 4.2), file, dpi=120)
+    return Sheet(charts, title, across, 4.2)
 
 
 def _dots(last: xr.Dataset, key: Factor, column: Column) -> Chart:

@@ -70,7 +70,7 @@ def car(fmus: dict[str, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 @pytest.fixture
 def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     """Spare the time of drawing."""
-    monkeypatch.setattr(cosim_report, "write_overview", lambda dataset, path: path)
+    monkeypatch.setattr(files, "save", lambda sheet, path, dpi=150: path)
 
 
 def result(folder: str) -> xr.Dataset:

@@ -20,9 +20,10 @@ from test_resume import KILLED, bits
 
 from contact_core import ContactError, OperatingPoint, Scene, StateError, initial_state, solve
 from contact_core.surfaces.patches import widened
+from system_models.charts import files
 from system_models.charts.chart import Chart
 from system_models.cli.main import main
-from system_models.run import maps, origin, report, track_picture
+from system_models.run import maps, origin, track_picture
 from system_models.run.contact import communication_points, run
 from system_models.run.duty import Duty
 from system_models.run.fields import Fields
@@ -217,8 +218,7 @@ def test_a_run_with_fields_goes_on_from_its_rows_bit_for_bit(
 @pytest.fixture
 def no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Spare the time of drawing."""
-    monkeypatch.setattr(report, "write_overview", lambda dataset, path: path)
-    monkeypatch.setattr(track_picture, "write", lambda dataset, maps, path: path)
+    monkeypatch.setattr(files, "save", lambda sheet, path, dpi=150: path)
 
 
 @pytest.mark.long
@@ -375,7 +375,7 @@ def test_the_picture_shows_pads_tracks_profiles_and_coverage(
         assert wear is not None and wear.values.max() > 1.0
         assert len(panels[f"Wear, body {body}"].lines) == 6  # of seven times; at the first nothing is worn
     assert {"pressure, 200 s", "gap, 200 s", "Coverage of the track", "Cross-section of body 2"} < {*panels}
-    path = track_picture.write(plain, found, tmp_path / "track.png")
+    path = files.save(track_picture.picture(plain, found), tmp_path / "track.png")
     assert path.stat().st_size > (100_000 if drawn else 0)
 
 
@@ -393,7 +393,7 @@ def test_the_picture_of_a_smooth_line_has_curves(plain: xr.Dataset, tmp_path: Pa
     assert found.sizes["y"] == 1
     panels = shown(plain, found)
     assert panels["pressure, 200 s"].lines[0].y.max() == approx(1100.0, rel=0.1)  # MPa
-    track_picture.write(plain, found, tmp_path / "track.png")
+    files.save(track_picture.picture(plain, found), tmp_path / "track.png")
     exact = solve(scene, scene.operation.point, initial_state(scene))
     assert found["pressure"].values[0] == approx(exact.pressure, rel=1e-6)
 

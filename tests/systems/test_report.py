@@ -164,7 +164,7 @@ def test_invalid_steps_are_shaded(long_run: xr.Dataset) -> None:
 
 @pytest.mark.usefixtures("rendered")
 def test_the_overview_is_a_png(long_run: xr.Dataset, tmp_path: Path) -> None:
-    path = report.write_overview(long_run, tmp_path / "overview.png")
+    path = files.save(report.overview(long_run), tmp_path / "overview.png")
     assert path.read_bytes().startswith(b"\x89PNG")
     assert path.stat().st_size > 10_000
 
