@@ -6,11 +6,12 @@
     native      the native flavour: an FMU in C99 for one scene, without Python
     variables   the FMU's variables, one per value reference, from the quantity table and the scene
     phases      phases in the life of an instance
+    html        pages that need no other file
     flavours    names of the flavours, and versions of FMI
 
-Imports run one way: package -> native -> runtime, isolated -> variables, phases, flavours. The FMU is thin: it carries
-its scene; the physics comes from the installed contact_core of the same version. A native FMU alone carries the physics
-itself, as C sources.
+Imports run one way: package -> native -> runtime, isolated -> variables, phases, flavours, html. The FMU is thin: it
+carries its scene; the physics comes from the installed contact_core of the same version. A native FMU alone carries the
+physics itself, as C sources.
 """
 
 

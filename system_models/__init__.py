@@ -15,6 +15,7 @@ Each package imports only from those below it:
     parts/      components of machines that have no contact
     instruments/ files of instruments: measured surfaces, logs of rigs
     fmu/        a running FMU of FMI 2.0 or 3.0 on the host's side
+    charts/     charts as records, drawn as SVG or by matplotlib; units that people read
     numerics/   extrapolation, iteration and error control of the master, on arrays
     store/      checkpoints and results on disk
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from benchmarks.pages import Page
 from contact_core import Scene, advance, initial_state
+from system_models.charts import files
 from system_models.run import fit_data, fit_report
 from system_models.run.fit import Fit, fit
 from system_models.run.fit_model import constants_of
@@ -132,7 +133,7 @@ def three_temperatures(page: Page, folder: Path) -> None:
     )
     share = np.sum(shares) / (len(VARIED) * len(found))
     page.verdict("true constants in their 90 % intervals: at least 80 %", f"{100.0 * share:.0f} %", share >= 0.8)
-    page.picture(fit_report.figure(found[0]), "fit.png", "films at three temperatures: points, fit, bands")
+    page.picture(files.figure(fit_report.sheet(found[0])), "fit.png", "films at three temperatures: points, fit, bands")
 
 
 def unit_of(scene: Scene, key: str) -> str:
@@ -215,7 +216,7 @@ def measured_films(page: Page, folder: Path) -> None:
         sum(counts) >= 0.85 * total,
     )  # fmt: skip
     assert first is not None
-    page.picture(fit_report.figure(first), "fit_measured.png", "measured films: points, fit, band")
+    page.picture(files.figure(fit_report.sheet(first)), "fit_measured.png", "measured films: points, fit, band")
 
 
 def deterministic_level(page: Page, folder: Path) -> None:

@@ -24,6 +24,7 @@ from benchmarks.dependencies import kept
 from benchmarks.folders import MEASURED
 from benchmarks.pages import save
 from contact_core import Scene, shipped_scenes
+from system_models.charts import files
 from system_models.run import stribeck_report
 from system_models.run.duty import Duty
 from system_models.run.stribeck import Curves, Plan, measure
@@ -193,7 +194,7 @@ def page(all_curves: dict[tuple[str, str], xr.Dataset], options: str) -> list[st
         lines += [f"{scene.film.points} nodes a side. {' '.join(stribeck_report.closing_lines(found))}"]
         if tribofilm != "none":
             lines += ["", f"![Stribeck curves of {name}](stribeck_{name}.png)"]
-            stribeck_report.write_figure(found, DOCS / f"stribeck_{name}.png")
+            files.save(stribeck_report.sheet(found), DOCS / f"stribeck_{name}.png")
     return lines
 
 

@@ -3,8 +3,6 @@
 `python -m fmu_src.package.icon` draws it into fmu_src/package/icon.png, which the FMU contains as model.png.
 """
 
-import struct
-import zlib
 from pathlib import Path
 
 import numpy as np
@@ -63,16 +61,7 @@ def _coarse(picture: Image) -> NDArray[np.uint8]:
     return np.rint(255.0 * np.dstack([colours, alpha])).astype(np.uint8)
 
 
-def encoded(pixels: NDArray[np.uint8]) -> bytes:
-    """Return a PNG of 8 bit red, green, blue, alpha."""
-    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
-    height, width = pixels.shape[:2]
-    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
-    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(rows, 9)), (b"IEND", b""))
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks
-    )
-
-
 if __name__ == "__main__":
-    Path(__file__).with_name("icon.png").write_bytes(encoded(draw()))
+    from matplotlib.image import imsave
+
+    imsave(Path(__file__).with_name("icon.png"), draw())

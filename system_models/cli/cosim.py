@@ -75,6 +75,7 @@ def _export(system: "System", path: str, settings: Mapping[str, Any]) -> int:
 
 def _report(dataset: "xr.Dataset", folder: Path) -> "Finished":
     """Print and write the result."""
+    from ..charts import files
     from ..run import cosim_report
     from ..runs.job import EXIT_CODE, Finished
     from ..store import results
@@ -83,6 +84,6 @@ def _report(dataset: "xr.Dataset", folder: Path) -> "Finished":
     print(*cosim_report.closing_lines(dataset), *cosim_report.validity(dataset), sep="\n")
     wrong = bool(cosim_report.unreliable_steps(dataset) or dataset.attrs["invalid"])
     dataset = dataset.assign_attrs({EXIT_CODE: int(wrong)})
-    written = [*results.write(dataset, folder), cosim_report.write_overview(dataset, folder / "overview.png")]
+    written = [*results.write(dataset, folder), *files.write({"overview": cosim_report.overview(dataset)}, folder)]
     print(f"Written: {', '.join(map(str, written))}")
     return Finished(dataset, folder, not wrong, tuple(map(Path, written)))

@@ -69,6 +69,7 @@ def _checked(arguments: argparse.Namespace, members: "Members") -> "tuple[Scene,
 
 def _run_in(task: "Task", members: "Members", scene: "Scene", duty: "Duty", folder: Path, processes: int) -> int:
     """Run the members, print and write what they are together; return the exit code."""
+    from ..charts import files
     from ..run import origin, report, trust
     from ..store import results
     from ..sweep import members as together
@@ -89,6 +90,6 @@ def _run_in(task: "Task", members: "Members", scene: "Scene", duty: "Duty", fold
     print(*trust.after(scene, result, {}), sep="\n")
     written = results.write(result, folder, table=together.with_scatter(result))
     written += results.write(each, folder, together.FILE)
-    written.append(report.write_overview(result, folder / "overview.png"))
+    written.append(files.save(report.overview(result), folder / "overview.png"))
     print(f"Written: {', '.join(map(str, written))}")
     return 1 if report.invalid_rows(result) else 0

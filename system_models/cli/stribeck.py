@@ -148,6 +148,7 @@ def _kept(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -> str:
 
 def _report_curves(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -> int:
     """Print and write the curves; return the exit code."""
+    from ..charts import files
     from ..run import stribeck_report
     from ..store import results
 
@@ -155,6 +156,6 @@ def _report_curves(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -
     print(stribeck_report.table(dataset))
     print(*stribeck_report.shift_lines(dataset), *stribeck_report.closing_lines(dataset), sep="\n")
     written = results.write(dataset, folder, "stribeck")
-    written.append(stribeck_report.write_figure(dataset, folder / "stribeck.png"))
+    written.append(files.save(stribeck_report.sheet(dataset), folder / "stribeck.png"))
     print(f"Written: {', '.join(map(str, written))}")
     return 1 if stribeck_report.invalid_points(dataset) else 0

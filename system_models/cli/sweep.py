@@ -88,6 +88,7 @@ def solved_with_bar(task: "Task", plan: "Plan", processes: int, executor: str | 
 
 def _report(task: "Task", plan: "Plan", outcomes: "dict[int, Outcome]", folder: Path) -> int:
     """Print and write the sweep; return the exit code."""
+    from ..charts import files
     from ..store.results import write
     from ..sweep import report
     from ..sweep.points import ends, gathered, rows, scene_at
@@ -99,7 +100,8 @@ def _report(task: "Task", plan: "Plan", outcomes: "dict[int, Outcome]", folder: 
     print(dataset.attrs["title"], report.table(plan, dataset), *said, sep="\n")
     netcdf = write(dataset, folder, "sweep", table=rows(plan, dataset))
     netcdf += _means(plan, dataset, folder)
-    print(f"Written: {', '.join(map(str, [*netcdf, report.write_picture(plan, dataset, folder / 'sweep.png')]))}")
+    netcdf.append(files.save(report.sheet(plan, dataset), folder / "sweep.png", dpi=120))
+    print(f"Written: {', '.join(map(str, netcdf))}")
     refused = any(outcome.refused for outcome in outcomes.values())
     return 1 if refused or not bool(dataset["valid"].values.all()) else 0
 

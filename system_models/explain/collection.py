@@ -18,7 +18,7 @@ from contact_core.laws.symbols import COMMON, explained
 from contact_core.scene import SelfAffine, Surface
 from contact_core.scene.records import Lubricant
 from contact_core.shapes import GEOMETRIES
-from fmu_src.package.document.markup import inline
+from fmu_src.html.markup import inline
 
 from .latex import latex
 

@@ -6,7 +6,8 @@ from typing import Any
 
 from contact_core.scene.origins import Origin
 
-_CELSIUS = 273.15  # K
+from ..charts.units import CELSIUS
+
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"))
 _PREFIXED = frozenset({"m", "m/s", "Pa", "Pa s", "N", "J", "W"})
 
@@ -21,7 +22,7 @@ def written(value: Any, metadata: Mapping[str, Any], origin: Origin) -> str:
     if isinstance(value, str):
         return value or "none"
     if metadata.get("quantity") == "ThermodynamicTemperature":
-        return f"{value - _CELSIUS:.6g} degC"
+        return f"{value - CELSIUS:.6g} degC"
     return readable(float(value), unit)
 
 

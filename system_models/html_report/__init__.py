@@ -1,10 +1,6 @@
 """Results as HTML pages: one file each, without network, for reading, printing and showing to others.
 
     opened      a folder of results as a Run: finished or not, of a contact, a machine or any system
-    shown       the units in which people read a quantity
-    markup      pieces of HTML: tables, notes, figures, sections
-    chart       lines against time with their error bands, as SVG that a script reads values from
-    panels      which quantities of a contact are drawn, and in which words
     summary     the end values and what to think of them
     scene       the scene as it was run; what was modelled and what was not
     ensemble    an ensemble of surfaces: its mean, its band, its members
@@ -17,6 +13,5 @@
     page        the page of one run
     compare     several runs in the same charts, with their bands; a table for the terminal
 
-`page.html`, `style.css` and `viewer.js` are what every page has. The script shows values under the pointer and draws
-the maps; all else is there without it.
+All is there without the script of the page, but for maps and values under the pointer.
 """

@@ -2,22 +2,23 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from contact_core.errors import ContactError
+from fmu_src.html.markup import heading, paragraph, section, table
 
+from ..charts.chart import Chart
+from ..charts.svg import figure
+from ..charts.units import Unit, stated, time_unit
 from ..run.cosim_report import aligned
-from .chart import Chart, Line, figure
+from ..run.panels import MAIN, MORE, Panel, apart, band, overlaid, unit_of, values
 from .histories import BANDS
-from .markup import heading, paragraph, section, table
 from .opened import Run, open_run
-from .page import whole
-from .panels import MAIN, MORE, Panel, band, unit_of, values
+from .page import dressed
 from .scene import readable
-from .shown import Unit, stated, time_unit
 
 _MOST = 7  # runs, as many as there are colours
 _LEFT_OUT = ("name", "description")
@@ -87,27 +88,18 @@ def end_values(runs: Sequence[Run], contact: str) -> Iterator[EndValue]:
     """Yield the values of the main quantities of a contact at the last time that all runs have reached."""
     rows = [_row(run, compared_at(runs)) for run in runs]
     for panel in (*MAIN, *MORE):
-        for name, label in zip(panel.quantities, panel.labels, strict=True):
+        for name, title in apart(panel):
             full = [run.of(contact, name) for run in runs]
             there = [k for k, run in enumerate(runs) if full[k] in run.dataset]
             if not any(np.any(values(runs[k].dataset, full[k])) for k in there):
                 continue
-            unit = _common_unit([runs[k] for k in there], [full[k] for k in there], name)
+            unit = unit_of([(runs[k].dataset, full[k]) for k in there], name)
             found, halves = [math.nan] * len(runs), [math.nan] * len(runs)
             for k in there:
                 found[k] = float(unit.of(values(runs[k].dataset, full[k])[rows[k]]))
                 half = band(runs[k].dataset, full[k], unit)
                 halves[k] = math.nan if half is None else float(half[rows[k]])
-            who = f", {label}" if len(panel.quantities) > 1 else ""
-            yield EndValue(f"{panel.title}{who}", unit, tuple(found), tuple(halves))
-
-
-def _common_unit(runs: Sequence[Run], full: Sequence[str], quantity: str) -> Unit:
-    """Return the unit that suits the run with the largest values."""
-    largest = max(
-        range(len(runs)), key=lambda k: float(np.nanmax(np.abs(values(runs[k].dataset, full[k])), initial=0.0))
-    )
-    return unit_of(runs[largest].dataset, [full[largest]], quantity)
+            yield EndValue(title, unit, tuple(found), tuple(halves))
 
 
 def lines(runs: Sequence[Run]) -> list[str]:
@@ -149,7 +141,7 @@ def page(runs: Sequence[Run]) -> str:
     """Return the page that compares runs."""
     shared = _shared(runs)
     body = _ends(runs, shared) + _differences(runs) + _charts(runs, shared)
-    return whole(f"Compared: {', '.join(names(runs))}", "Comparison of runs", body)
+    return dressed(f"Compared: {', '.join(names(runs))}", "Comparison of runs", body)
 
 
 def _ends(runs: Sequence[Run], shared: Sequence[str]) -> str:
@@ -200,21 +192,16 @@ def _leaves(part: object, path: str = "") -> Iterator[tuple[str, object]]:
 def _charts(runs: Sequence[Run], shared: Sequence[str]) -> str:
     parts = []
     for number, contact in enumerate(shared):
-        drawn = [
-            figure(_overlaid(runs, contact, name, title, panel), f"compare-{number}-{name}")
+        drawn = {
+            name: _overlaid(runs, contact, name, title, panel)
             for panel in (*MAIN, *MORE)
-            for name, title in _apart(panel)
+            for name, title in apart(panel)
             if any(_has(run, contact, name) for run in runs)
-        ]
+        }
         parts += [heading(f"Contact {contact}")] if contact else []
-        parts.append(f'<div class="charts">{"".join(drawn)}</div>')
+        shown = "".join(figure(chart, f"compare-{number}-{name}") for name, chart in drawn.items())
+        parts.append(f'<div class="charts">{shown}</div>')
     return section("histories", "Histories", paragraph(BANDS), *parts)
-
-
-def _apart(panel: Panel) -> Iterator[tuple[str, str]]:
-    """Yield the quantities of a panel, each for a chart of its own."""
-    for name, label in zip(panel.quantities, panel.labels, strict=True):
-        yield name, f"{panel.title}, {label}" if len(panel.quantities) > 1 else panel.title
 
 
 def _has(run: Run, contact: str, name: str) -> bool:
@@ -224,14 +211,9 @@ def _has(run: Run, contact: str, name: str) -> bool:
 
 def _overlaid(runs: Sequence[Run], contact: str, name: str, title: str, panel: Panel) -> Chart:
     """Return the chart of one quantity of all runs that have it; a run keeps its colour in all charts."""
-    clock = time_unit(max(run.reached for run in runs))
-    having = [(place, run) for place, run in enumerate(runs) if _has(run, contact, name)]
-    unit = _common_unit([run for _, run in having], [run.of(contact, name) for _, run in having], name)
-    drawn = []
-    for place, run in having:
-        full = run.of(contact, name)
-        x, y = clock.of(run.dataset.variables["time"].values), unit.of(values(run.dataset, full))
-        drawn.append(Line(names(runs)[place], x, y, band(run.dataset, full, unit), place))
-    chart = Chart(title, f"time {clock.label}", f"{panel.symbol} {unit.label}", drawn, panel.caption)
-    most = 1.0 if panel.share else None
-    return replace(chart, downward=panel.downward, from_zero=unit.offset == 0.0, most=most)
+    columns = [
+        (names(runs)[place], run.dataset, run.of(contact, name), place)
+        for place, run in enumerate(runs)
+        if _has(run, contact, name)
+    ]
+    return overlaid(panel, title, name, columns)

@@ -2,14 +2,16 @@
 
 import json
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
+from fmu_src.html.markup import paragraph, section, table
+
+from ..charts.chart import COLOURS, Chart, Line
+from ..charts.svg import figures
+from ..run.panels import MAIN, Panel, apart, overlaid, unit_of, values
 from ..sweep.members import ATTRIBUTE, EXPLAINED, HEADINGS, ends_of
-from .chart import COLOURS, Chart, Line, figure
-from .markup import paragraph, section, table
 from .opened import Run
-from .panels import MAIN, band, unit_of, values
-from .shown import time_unit
 
 _MOST = len(COLOURS) - 1  # members whose lines are told apart
 _LINES = (
@@ -24,40 +26,29 @@ def sections(run: Run) -> str:
         return ""
     names = json.loads(run.dataset.attrs[ATTRIBUTE])["members"]
     rows = [
-        [f"{heading} [{unit}]" if unit else heading]
-        + ["–" if math.isnan(number) else f"{number:.{digits}f}" for number in numbers]
-        for heading, unit, numbers, digits in ends_of(run.dataset, run.members)
+        [title, *("–" if math.isnan(number) else f"{number:.{digits}f}" for number in numbers)]
+        for title, numbers, digits in ends_of(run.dataset, run.members)
     ]
     head = ["at the end", *(each.replace("+-", "±") for each in HEADINGS), *names]
     drawn = [
-        figure(chart, f"ensemble-{panel}-{place}")
-        for panel, each in enumerate(MAIN)
-        for place in range(len(each.quantities))
-        for chart in _chart(run, panel, place, names)
+        chart for panel in MAIN for name, title in apart(panel) for chart in _chart(run, panel, name, title, names)
     ]
     return section(
         "ensemble",
         "Ensemble of surfaces",
         table(head, rows, "numbers"),
         paragraph(EXPLAINED.replace("+-", "±")),
-        f'<div class="charts">{"".join(drawn)}</div>',
+        figures(drawn, "ensemble"),
         paragraph(_LINES, "quiet"),
     )
 
 
-def _chart(run: Run, number: int, place: int, names: list[str]) -> list[Chart]:
-    """Return the chart of one quantity of a panel, none if it is zero throughout."""
-    assert run.members is not None
-    panel = MAIN[number]
-    name, label = panel.quantities[place], panel.labels[place]
-    mean = values(run.dataset, name)
-    if not mean.any():
-        return []
-    clock, unit = time_unit(run.reached), unit_of(run.dataset, [name], name)
-    time = clock.of(run.dataset.variables["time"].values)
-    each = values(run.members, name)[:_MOST]
-    lines = [Line("mean", time, unit.of(mean), band(run.dataset, name, unit), 0)]
-    lines += [Line(names[k], time, unit.of(line), None, k + 1) for k, line in enumerate(each)]
-    title = f"{panel.title}, {label}" if len(panel.quantities) > 1 else panel.title
-    chart = Chart(title, f"time {clock.label}", f"{panel.symbol} {unit.label}", lines)
-    return [replace(chart, from_zero=unit.offset == 0.0, downward=panel.downward)]
+def _chart(run: Run, panel: Panel, name: str, title: str, names: list[str]) -> Iterator[Chart]:
+    """Yield the chart of one quantity of a panel, none if it is zero throughout."""
+    if run.members is None or not values(run.dataset, name).any():
+        return
+    mean = overlaid(panel, title, name, [("mean", run.dataset, name, 0)])
+    unit = unit_of([(run.dataset, name)], name)
+    members = values(run.members, name)[:_MOST]
+    lines = [Line(names[k], mean.lines[0].x, unit.of(y), None, k + 1) for k, y in enumerate(members)]
+    yield replace(mean, lines=[*mean.lines, *lines], caption="")

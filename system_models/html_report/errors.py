@@ -8,14 +8,14 @@ import numpy as np
 from contact_core.assumed import HEADS, assumed, told
 from contact_core.errors import ContactError
 from contact_core.state import Error
+from fmu_src.html.markup import Raw, folded, heading, paragraph, section, table, text
 
+from ..charts.half_widths import SHARES
+from ..charts.units import stated, unit_for
 from ..machines.assumed import ATTRIBUTE as WORTH
 from ..machines.coupling_error import ATTRIBUTE as COUPLING
-from ..run.half_widths import SHARES
-from .markup import Raw, folded, heading, paragraph, section, table, text
+from ..run.panels import values
 from .opened import Run
-from .panels import values
-from .shown import stated, unit_for
 
 CAUSES = {  # in words, by field of `Error`
     "time": "steps in time",

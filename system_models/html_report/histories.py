@@ -1,14 +1,15 @@
 """Quantities against time: of one contact, of a machine's parts, and of each of its contacts."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from .chart import COLOURS, Chart, Line, figure
-from .markup import folded, heading, paragraph, section
+from fmu_src.html.markup import folded, heading, paragraph, section
+
+from ..charts.chart import COLOURS, Chart
+from ..charts.svg import figures
+from ..run.panels import DUTY, MAIN, MORE, Panel, chart, charts, constants
 from .opened import Run
-from .panels import DUTY, MAIN, MORE, charts, constants, values
-from .shown import time_unit, unit_for
 from .trust import invalid
 
 BANDS = (
@@ -26,36 +27,21 @@ def sections(run: Run) -> str:
     """Return the section of histories."""
     shaded = invalid(run)
     if run.of_contact:
-        main, more = (
-            _figures(charts(run.dataset, panels, "", shaded), f"history-{k}") for k, panels in enumerate((MAIN, MORE))
+        main, more, duty = (
+            figures(charts(run.dataset, panels, "", shaded), key)
+            for panels, key in ((MAIN, "history-0"), (MORE, "history-1"), (DUTY, "duty"))
         )
-        duty = _figures(charts(run.dataset, DUTY, "", shaded), "duty")
         held = ", ".join(constants(run.dataset, (*DUTY, *MORE)))
+        rest = heading("More of the contact"), more, heading("The duty"), duty
         still = paragraph(f"Constant throughout: {held}.") if held else ""
-        return section(
-            "histories",
-            "Histories",
-            paragraph(BANDS),
-            main,
-            heading("More of the contact"),
-            more,
-            heading("The duty"),
-            duty,
-            still,
-        )
-    parts = _figures(_of_parts(run), "part")
+        return section("histories", "Histories", paragraph(BANDS), main, *rest, still)
     each = [_of_contact(run, name, k, shaded) for k, name in enumerate(run.contacts)]
     contacts = [heading("Each contact"), *each] if each else []
-    return section("histories", "Histories", paragraph(BANDS), parts, *contacts)
-
-
-def _figures(found: Iterable[Chart], key: str) -> str:
-    drawn = "".join(figure(chart, f"{key}-{k}") for k, chart in enumerate(found))
-    return f'<div class="charts">{drawn}</div>' if drawn else ""
+    return section("histories", "Histories", paragraph(BANDS), figures(_of_parts(run), "part"), *contacts)
 
 
 def _of_contact(run: Run, name: str, number: int, shaded: tuple[tuple[float, float], ...]) -> str:
-    drawn = _figures(charts(run.dataset, MAIN, name, shaded), f"contact-{number}")
+    drawn = figures(charts(run.dataset, MAIN, name, shaded), f"contact-{number}")
     return folded(f"Contact {name}", drawn, unfolded=number == 0)
 
 
@@ -69,11 +55,11 @@ def _of_parts(run: Run) -> Iterator[Chart]:
         if run.dataset.variables[name].dtype.kind == "f" and np.ptp(run.dataset.variables[name].values) > 0.0:
             stem = variable.split("_")[0]
             groups.setdefault((part, run.dataset.variables[name].attrs.get("units", "1"), stem), []).append(name)
-    for (part, si, stem), names in list(groups.items())[:_MOST]:
-        yield _together(run, part, si, stem, names[:_TOGETHER])
+    for (part, _, stem), names in list(groups.items())[:_MOST]:
+        yield _together(run, part, stem, names[:_TOGETHER])
 
 
-def _common(labels: list[str]) -> str:
+def _common(labels: Sequence[str]) -> str:
     """Return the words with which all labels begin."""
     found = []
     for words in zip(*(label.split() for label in labels), strict=False):
@@ -83,18 +69,7 @@ def _common(labels: list[str]) -> str:
     return " ".join(found)
 
 
-def _together(run: Run, part: str, si: str, stem: str, names: list[str]) -> Chart:
-    clock, found = time_unit(run.reached), {name: values(run.dataset, name) for name in names}
-    unit = unit_for(si, np.concatenate([*found.values()]), "rise" in names[0])
-    lines = [
-        Line(
-            name.rpartition(".")[2].replace("_", " "),
-            clock.of(run.dataset.variables["time"].values),
-            unit.of(y),
-            None,
-            place,
-        )
-        for place, (name, y) in enumerate(found.items())
-    ]
-    title = lines[0].label if len(lines) == 1 else _common([line.label for line in lines]) or stem
-    return Chart(f"{part}: {title}", f"time {clock.label}", f"{title} {unit.label}", lines, from_zero=si != "K")
+def _together(run: Run, part: str, stem: str, names: list[str]) -> Chart:
+    labels = tuple(name.rpartition(".")[2].replace("_", " ") for name in names)
+    title = labels[0] if len(labels) == 1 else _common(labels) or stem
+    return chart(run.dataset, Panel(f"{part}: {title}", tuple(names), labels, title, ""), names)

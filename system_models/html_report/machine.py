@@ -1,15 +1,16 @@
 """Report and pictures of a machine, and the states that its run has solved again."""
 
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from fmu_src.html.markup import bullets, heading, paragraph, picture, printed, section, table
+
+from ..charts.files import png
+from ..charts.units import stated
 from ..machines import report as machine_report
 from ..machines import trust
 from ..store import results
-from .markup import bullets, heading, paragraph, picture, printed, section, table
 from .opened import Run
-from .shown import stated
 
 _NAMES = {
     "overview": "The run at a glance", "path": "Along the path of contact", "time": "Against time",
@@ -39,15 +40,14 @@ def _lines(run: Run) -> Iterator[str]:
 
 def _pictures(run: Run) -> Iterator[str]:
     """Yield the pictures of the machine: drawn anew, or else those that lie in the folder."""
-    with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder:
-        if run.machine:
-            drawn = run.machine.kind.pictures(run.machine.assembly, run.dataset, Path(folder))
-        else:
-            drawn = sorted(run.folder.glob("*.png")) if run.finished else []
-        if drawn:
-            yield heading("Pictures")
-        for file in drawn:
-            yield picture(file, _NAMES.get(file.stem, file.stem.replace("_", " ")))
+    if run.machine:
+        drawn = {k: png(sheet) for k, sheet in run.machine.kind.pictures(run.machine.assembly, run.dataset).items()}
+    else:
+        drawn = {file.stem: file.read_bytes() for file in sorted(run.folder.glob("*.png")) if run.finished}
+    if drawn:
+        yield heading("Pictures")
+    for name, data in drawn.items():
+        yield picture(data, _NAMES.get(name, name.replace("_", " ")))
 
 
 def _resolved(folder: Path) -> Iterator[str]:

@@ -8,11 +8,14 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from fmu_src.html.markup import paragraph, section, text
+
+from ..charts.chart import Array, Chart, Line, shades
+from ..charts.svg import figures, safe_json
+from ..charts.units import time_unit, unit_for
 from ..run.maps import ALONG, TIME
-from .chart import Array, Chart, Line, figure, safe_json
-from .markup import paragraph, section, text
+from ..run.track_picture import KINDS, cross_section, profile
 from .opened import Run
-from .shown import time_unit, unit_for
 
 _MOST = 1_500_000  # nodes of all maps of a page together, beyond which only every second, third ... is shown
 _TIMES = 16  # maps of so many times are shown, evenly spread
@@ -205,18 +208,16 @@ def _top(shown: Array, key: str) -> float:
 
 
 def _stops(name: str) -> list[list[int]]:
-    """Return colours of a map of matplotlib, of equal distance."""
-    from matplotlib import colormaps
-
-    return [[round(255 * part) for part in colormaps[name](k / (_STOPS - 1))[:3]] for k in range(_STOPS)]
+    """Return the red, green and blue of colours of a map of matplotlib, of equal distance."""
+    return [[int(each[k : k + 2], 16) for k in (1, 3, 5)] for each in shades(_STOPS, name, 0.0, 1.0)]
 
 
 def _profiles(dataset: xr.Dataset) -> str:
     """Return the section of profiles across the track, mean along it, and of cross-sections of the surfaces."""
-    charts = [
-        chart for kind, title, down in _KINDS for body in (1, 2) for chart in _across(dataset, kind, title, body, down)
-    ]
-    charts += [_cross_section(dataset, body) for body in (1, 2)]
+    last = dataset.sizes[TIME] - 1
+    some = dataset.isel({TIME: sorted({round(k) for k in np.linspace(min(1, last), last, _PROFILES)})})
+    every = [(kind, body) for kind in KINDS for body in (1, 2) if dataset[f"{kind}_profile_{body}"].values.any()]
+    charts = [*(profile(some, kind, body) for kind, body in every), *(cross_section(dataset, body) for body in (1, 2))]
     return section(
         "profiles",
         "Profiles across the track",
@@ -224,66 +225,17 @@ def _profiles(dataset: xr.Dataset) -> str:
             "Means along the track at some times of the run; the track is the grey stretch. Cross-sections are a "
             "single line across the middle of the map, so they show single asperities."
         ),
-        f'<div class="charts">{"".join(figure(chart, f"profile-{k}") for k, chart in enumerate(charts))}</div>',
+        figures(charts, "profile"),
     )
-
-
-_KINDS = (("tribofilm", "Tribofilm", False), ("wear", "Wear", True), ("plastic", "Plastic depth", True))
-
-
-def _across(dataset: xr.Dataset, kind: str, title: str, body: int, down: bool) -> Iterator[Chart]:
-    """Yield the chart of a profile at some of the times, if it is not zero."""
-    profiles = np.asarray(dataset.variables[f"{kind}_profile_{body}"].values, dtype=float)
-    if not profiles.any():
-        return
-    unit, times = unit_for("m", profiles), dataset.variables[TIME].values
-    clock = time_unit(float(times[-1]))
-    used = [k for k in range(len(times)) if profiles[k].any()]
-    chosen = sorted({used[round(k)] for k in np.linspace(0, len(used) - 1, min(len(used), _PROFILES))})
-    name = "thickness" if kind == "tribofilm" else "depth"
-    x, label, edges = _y_axis(dataset)
-    lines = [
-        Line(f"{float(clock.of(times[k])):.3g} {clock.name}", x, unit.of(profiles[k]), None, place)
-        for place, k in enumerate(chosen)
-    ]
-    yield Chart(f"{title}, body {body}", label, f"mean {name} {unit.label}", lines, shaded=edges, downward=down)
-
-
-def _y_axis(dataset: xr.Dataset) -> tuple[Array, str, tuple[tuple[float, float], ...]]:
-    """Return y in the unit people read, its label, and the track if it ends within the grid."""
-    y = np.asarray(dataset.variables["y"].values, dtype=float)
-    unit, half = unit_for("m", [np.ptp(y)]), float(dataset.variables["half_width_y"])
-    edge = float(unit.of(half))
-    return unit.of(y), f"y {unit.label}", ((-edge, edge),) if half < y.max() else ()
-
-
-def _cross_section(dataset: xr.Dataset, body: int) -> Chart:
-    """Return the chart of a body's surface along a line across the track: as new and as it is at the end."""
-    middle = dataset.sizes[ALONG] // 2
-    last = dataset.isel({TIME: -1})
-    new = np.asarray(last.variables[f"new_heights_{body}"].values, dtype=float)[:, middle]
-    solid = new - _lost(last, str(body))[:, middle]
-    film = solid + np.asarray(last.variables[f"tribofilm_map_{body}"].values, dtype=float)[:, middle]
-    x, label, edges = _y_axis(dataset)
-    unit = unit_for("m", np.concatenate([new, film]))
-    lines = [
-        Line("as new", x, unit.of(new), None, 4),
-        Line("solid at the end", x, unit.of(solid), None, body - 1),
-        Line("with tribofilm", x, unit.of(film), None, 2),
-    ]
-    return Chart(f"Cross-section of body {body}", label, f"height {unit.label}", lines, shaded=edges, from_zero=False)
 
 
 def _lines(dataset: xr.Dataset) -> Iterator[str]:
     """Yield the maps of a contact with a row or a few as charts along x, at the last time."""
     yield paragraph("The contact is a line: it is the same along y, so maps are curves along x, at the end of the run.")
-    yield '<div class="charts">'
-    for k, each in enumerate(_fields(dataset)):
+    charts = []
+    for each in _fields(dataset):
         unit = unit_for("Pa" if "pressure" in each.key else "m", each.values)
-        length = unit_for("m", [np.ptp(each.along)])
+        length, log = unit_for("m", [np.ptp(each.along)]), each.key in _LOGARITHMIC
         line = Line(each.title, length.of(each.along), unit.of(each.values[-1].mean(axis=0)))
-        log = each.key in _LOGARITHMIC
-        yield figure(
-            Chart(each.title, f"x {length.label}", unit.label, [line], each.caption, logarithmic=log), f"line-{k}"
-        )
-    yield "</div>"
+        charts.append(Chart(each.title, f"x {length.label}", unit.label, [line], each.caption, logarithmic=log))
+    yield figures(charts, "line")

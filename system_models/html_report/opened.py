@@ -85,6 +85,12 @@ class Run:
         names = [str(name).rpartition(".")[0] for name in self.dataset.data_vars if str(name).endswith(".h_c")]
         return tuple(sorted(names))
 
+    def alone(self, contact: str) -> xr.Dataset:
+        """Return what the result has of a contact, by the names that the run of a contact has."""
+        own = {name: name.removeprefix(f"{contact}.") for name in map(str, self.dataset.variables)}
+        own = {name: short for name, short in own.items() if not contact or short != name}
+        return self.dataset[list(own)].rename(own) if contact else self.dataset
+
     def of(self, contact: str, quantity: str) -> str:
         """Return the name of a contact's variable."""
         return f"{contact}.{quantity}" if contact else quantity

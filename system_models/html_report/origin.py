@@ -7,8 +7,8 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 
 import contact_core
+from fmu_src.html.markup import folded, heading, paragraph, section, table
 
-from .markup import folded, heading, paragraph, section, table
 from .opened import Run
 
 _PACKAGES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "fmpy")

@@ -1,38 +1,19 @@
 """The scene as it was run, and what was modelled and what was not."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import fields, is_dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 from contact_core.errors import SceneError
 from contact_core.laws import SLOTS
 from contact_core.scene import Scene
+from contact_core.scene.in_use import InUse, in_use
 from contact_core.scene.units import parse
+from fmu_src.html.markup import Raw, bullets, folded, heading, linked, paragraph, section, table
+from fmu_src.package.document.formulas import equations
 
+from ..charts.units import unit_for
 from ..explain import left_out
-from .markup import Raw, bullets, equation, folded, heading, paragraph, section, source, table, text
 from .opened import Run
-from .shown import unit_for
-
-_SYMBOL = "equations"  # what every law has
-
-
-class Slot(NamedTuple):
-    """A law in use, or one that does nothing."""
-
-    path: str
-    law: Any
-
-    @property
-    def active(self) -> bool:
-        """False for a slot of physics that is switched off: its law has no source, as it says nothing."""
-        return bool(self.law.source) or self.path.rpartition(".")[2] not in SLOTS
-
-    @property
-    def words(self) -> str:
-        """What the law does, in a sentence."""
-        sentence = (type(self.law).__doc__ or "").splitlines()[0].split(". ")[0]
-        return sentence if sentence.endswith(".") else f"{sentence}."
 
 
 def sections(run: Run) -> str:
@@ -51,45 +32,30 @@ def modelled(scene: Scene | None) -> str:
     """Return what was modelled and what was not, with sources; nothing if the scene cannot be made again."""
     if scene is None:
         return ""
-    on = [each for each in (Slot("film", scene.film), *_slots(scene)) if each.active]
-    rows = [
-        [
-            each.path,
-            each.law.name,
-            each.words,
-            Raw(source(each.law.source).replace("Source: ", "", 1) if each.law.source else "–"),
-        ]
-        for each in on
-    ]
+    laws = [InUse("film", scene.film, ()), *(used for used in in_use(scene) if used.path != "film")]
+    on = [used for used in laws if used.law.source or used.path.rpartition(".")[2] not in SLOTS]
+    rows = [[used.path, used.law.name, _words(used.law), _source(used.law)] for used in on]
     without = [[each.key, each.value or "–", each.cost] for each in left_out.of(scene)]
     warnings = scene.warnings()
     return section(
         "modelled",
         "What was modelled, and what was not",
         table(["part of the model", "law", "in short", "source"], rows, "laws"),
-        folded("Equations", *(_equations(each) for each in on)),
+        folded("Equations", *equations(scene)),
         heading("Left out"),
         table(["part of the model", "choice", "what is left out, and what that costs"], without, "laws"),
         *((heading("Not resolved well"), bullets(warnings)) if warnings else ()),
     )
 
 
-def _slots(record: Any, path: str = "") -> Iterator[Slot]:
-    """Yield every law of a record and of the records in it."""
-    for f in fields(record):
-        part: Any = getattr(record, f.name)
-        if hasattr(part, _SYMBOL) and f.name != "film":
-            yield Slot(f"{path}{f.name}", part)
-        if is_dataclass(part):
-            yield from _slots(part, f"{path}{f.name}.")
+def _words(law: Any) -> str:
+    """Return what a law does, in a sentence."""
+    sentence = (type(law).__doc__ or "").splitlines()[0].split(". ")[0]
+    return sentence if sentence.endswith(".") else f"{sentence}."
 
 
-def _equations(slot: Slot) -> str:
-    shown = getattr(slot.law, _SYMBOL, None)
-    if shown is None or not shown.lines:
-        return ""
-    note = paragraph(shown.note, "quiet") if shown.note else ""
-    return f"<h4>{text(slot.path)}: {text(slot.law.name)}</h4>{''.join(map(equation, shown.lines))}{note}"
+def _source(law: Any) -> str:
+    return Raw(linked(law.source) if law.source else "–")
 
 
 def _name(table_: Mapping[str, Any]) -> str:
@@ -168,10 +134,6 @@ def _of_machine(run: Run) -> str:
         table_ = scene.to_dict()
         tables.append(folded(f"Scene of {', '.join(names)}", _name(table_), *_tables(table_)))
     given = section(
-        "scene",
-        "The machine as it was run",
-        table(["part", "kind", "what it is"], rows),
-        *tables,
-        *_assumed(run),
+        "scene", "The machine as it was run", table(["part", "kind", "what it is"], rows), *tables, *_assumed(run)
     )
     return given + modelled(next(iter(scenes.values()))[0])

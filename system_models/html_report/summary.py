@@ -2,19 +2,27 @@
 
 from collections.abc import Iterator
 
-import numpy as np
+from contact_core.state import Error
+from fmu_src.html.markup import Raw, paragraph, section, table, text
 
-from ..run.half_widths import UNKNOWN, says_nothing
-from ..store.results import ERROR
+from ..charts.half_widths import UNKNOWN, says_nothing
+from ..charts.units import Unit, negligible, stated, time_unit
+from ..run.panels import MAIN, MORE, Panel, band, unit_of, values
+from ..run.verdict import NAMES, Known, known
 from .errors import CAUSES
-from .markup import Raw, paragraph, section, table, text
 from .opened import Run
-from .panels import MAIN, Panel, band, unit_of, values
-from .shown import Unit, negligible, stated, time_unit
 from .trust import invalid, marked, raised, why_invalid
 
 _LARGE = 0.2  # relative half width from which an end value is called uncertain
 _MOST = 12  # contacts listed
+
+
+_TITLES = {
+    word: panel.title
+    for name, word in NAMES.items()
+    for panel in (*MAIN, *MORE)
+    if panel.quantities[0] in (name, f"{name}_1")
+}
 
 
 def summary(run: Run) -> str:
@@ -58,7 +66,7 @@ def _end(run: Run, panel: Panel, contact: str) -> Iterator[tuple[str, float, flo
         full = run.of(contact, name)
         if full in run.dataset:
             last = values(run.dataset, full)[-1:]
-            unit = unit_of(run.dataset, [full], name, slice(-1, None))
+            unit = unit_of([(run.dataset, full)], name, slice(-1, None))
             half = band(run.dataset, full, unit)
             yield label, float(unit.of(last)[0]), None if half is None else float(half[-1]), unit
 
@@ -142,33 +150,26 @@ def _of_flags(run: Run) -> Iterator[tuple[str, str]]:
 
 
 def _of_errors(run: Run) -> Iterator[tuple[str, str]]:
-    """Yield a sentence on each main output that is uncertain, with its main cause where it is known."""
-    for panel in MAIN:
-        worst, main = 0.0, ""
-        for contact in run.contacts:
-            for name, (_, value, half, _) in zip(panel.quantities, _end(run, panel, contact), strict=False):
-                relative = half / abs(value) if half is not None and value and np.isfinite(value) else 0.0
-                if relative > max(worst, _LARGE):
-                    where = "" if run.of_contact else f" in contact {contact}"
-                    worst, main = relative, f"{where}{_main_cause(run, contact, name)}"
-        if worst and not panel.share:
-            yield "warn", f"{panel.title} is uncertain by {worst:.0%}{main}: do not read more into its digits."
-        unknown = [name for name in run.contacts if _is_unknown(run, panel, name)]
-        if unknown:
-            where = "" if run.of_contact else f" in {len(unknown)} of {len(run.contacts)} contacts"
-            yield "bad", f"{panel.title} is not known{where}: its error leaves all open."
+    """Yield a sentence on each output that is uncertain, with its main cause where it is known."""
+    found: dict[str, list[tuple[Known, str]]] = {}
+    for contact in run.contacts:
+        causes = {name: Error(**parts) for name, parts in run.causes.get(contact, {}).items()}
+        for each in known(run.alone(contact).isel(time=-1), causes):
+            found.setdefault(each.word, []).append((each, contact))
+    for word, pairs in found.items():
+        worst, contact = max(pairs, key=lambda pair: pair[0].half)
+        if worst.half > _LARGE and not worst.share:
+            where = "" if run.of_contact else f" in contact {contact}"
+            by = f", mostly by {CAUSES[max(worst.error._asdict().items(), key=_half)[0]]}" if worst.error else ""
+            yield (
+                "warn",
+                f"{_TITLES[word]} is uncertain by {worst.half:.0%}{where}{by}: do not read more into its digits.",
+            )
+        count = sum(each.nothing for each, _ in pairs)
+        if count:
+            where = "" if run.of_contact else f" in {count} of {len(run.contacts)} contacts"
+            yield "bad", f"{_TITLES[word]} is not known{where}: its error leaves all open."
 
 
-def _is_unknown(run: Run, panel: Panel, contact: str) -> bool:
-    """Return True if the half width of a panel's first quantity says nothing at the end."""
-    name, half = panel.quantities[0], f"{run.of(contact, panel.quantities[0])}{ERROR}"
-    if half not in run.dataset.variables or not panel.share:
-        return False
-    value, width = (float(run.dataset.variables[key].values[-1]) for key in (run.of(contact, name), half))
-    return says_nothing(name, value, width)
-
-
-def _main_cause(run: Run, contact: str, name: str) -> str:
-    """Return the largest cause of an output's error in words."""
-    parts = run.causes.get(contact, {}).get(name)
-    return f", mostly by {CAUSES[max(parts, key=lambda cause: parts[cause])]}" if parts else ""
+def _half(cause: tuple[str, float]) -> float:
+    return cause[1]

@@ -1,6 +1,7 @@
 """What to think of the numbers: flags with their times and remedies, statistics of the solver."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import groupby
 
 import numpy as np
@@ -8,16 +9,16 @@ import xarray as xr
 
 from contact_core.quantities import TABLE
 from contact_core.state import RangeFlag
+from fmu_src.html.markup import heading, paragraph, printed, section, table, text
 
+from ..charts.svg import figures
+from ..charts.units import stated, time_unit, unit_for
 from ..machines import trust as machine_trust
 from ..run import cosim_report
 from ..run.flags import by_how_much
-from .chart import Chart, Line, figure
+from ..run.panels import Panel, chart, values
 from .errors import named
-from .markup import heading, paragraph, printed, section, table, text
 from .opened import Run
-from .panels import values
-from .shown import stated, time_unit, unit_for
 
 _REMEDY = {  # of a flag; the quantities that show by how much
     RangeFlag.LAMBDA_CAPPED: ("Nothing to do: lambda says nothing here.", ()),
@@ -41,6 +42,19 @@ _REMEDY = {  # of a flag; the quantities that show by how much
     RangeFlag.WORN_SHAPE: ("Use film.model = 'deterministic'.", ("wear_depth_1", "wear_depth_2")),
     RangeFlag.PITTED: ("Trust the onset more than the growth.", ("micropitted_area_1", "micropitted_area_2")),
 }  # fmt: skip
+
+
+_EFFORT = (
+    Panel("Film iterations", ("iterations",), ("iterations",), "iterations", "In the step that ends at each row."),
+    Panel(
+        "Solutions that did not converge",
+        ("unconverged",),
+        ("share",),
+        "share",
+        "Of the film solutions of the last block.",
+    ),
+)
+_STEP = Panel("Communication step", ("master.step_size",), ("step",), "step", "")
 
 
 def raised(run: Run) -> dict[RangeFlag, list[str]]:
@@ -224,23 +238,10 @@ def _of_blocks(dataset: xr.Dataset) -> Iterator[str]:
 
 def _iterations(dataset: xr.Dataset) -> Iterator[str]:
     """Yield iterations and shares of solutions that did not converge, against time."""
-    clock = time_unit(float(dataset.variables["time"].values[-1]))
-    shown = (
-        ("iterations", "Film iterations", "iterations", "In the step that ends at each row."),
-        ("unconverged", "Solutions that did not converge", "share", "Of the film solutions of the last block."),
-    )
-    figures = []
-    for name, title, symbol, caption in shown:
-        if name in dataset and np.any(dataset.variables[name].values):
-            line = Line(symbol, clock.of(dataset.variables["time"].values), values(dataset, name))
-            figures.append(
-                figure(Chart(title, f"time {clock.label}", f"{symbol} [–]", [line], caption), f"solver-{name}")
-            )
-    counted = [name in dataset and bool(np.any(dataset.variables[name].values)) for name, *_ in shown]
-    if counted == [True, False]:
+    there = [each for each in _EFFORT if each.quantities[0] in dataset and values(dataset, each.quantities[0]).any()]
+    if there == list(_EFFORT[:1]):
         yield paragraph("Every film solution converged.", "good")
-    if figures:
-        yield f'<div class="charts">{"".join(figures)}</div>'
+    yield figures([chart(dataset, each, each.quantities) for each in there], "solver")
 
 
 def _of_master(dataset: xr.Dataset, finished: bool) -> Iterator[str]:
@@ -250,8 +251,6 @@ def _of_master(dataset: xr.Dataset, finished: bool) -> Iterator[str]:
         yield heading("Cost of each part")
         yield printed(cosim_report.costs(dataset).splitlines())
     if "master.step_size" in dataset:
-        clock, sizes = time_unit(float(dataset.variables["time"].values[-1])), values(dataset, "master.step_size")
-        line = Line("step", clock.of(dataset.variables["time"].values[1:]), sizes[1:])
-        if len(sizes) > 2 and sizes[1:].min() > 0.0:
-            chart = Chart("Communication step", f"time {clock.label}", "step [s]", [line], "", logarithmic=True)
-            yield f'<div class="charts">{figure(chart, "solver-step")}</div>'
+        later = dataset.isel(time=slice(1, None))
+        if later.sizes["time"] > 1 and later["master.step_size"].values.min() > 0.0:
+            yield figures([replace(chart(later, _STEP, _STEP.quantities), logarithmic=True)], "solver-step")

@@ -13,12 +13,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..charts.units import CELSIUS
 from ..run.cosim_report import recorded
 from .assembly import Schedule
 
 ATTRIBUTE = "error_coupling"  # of each Real output of a result, in the output's unit
 _CHOOSING = ("tolerance", "horizon", "max_step", "controlled")  # settings that choose steps
-_ZERO = 273.15  # K: temperatures are read in degC
 _STATED = ".error_"  # in names of outputs: errors that a contact states
 _SAFETY = 3.0  # of two grids: Roache, J. Fluids Eng. 116 (1994) 405; measured: benchmarks/machines/tolerance.py
 _SHOWN = 5
@@ -99,7 +99,7 @@ def relative(dataset: xr.Dataset, nominals: Mapping[str, float]) -> dict[str, fl
         values = dataset[name]
         if ATTRIBUTE not in values.attrs:
             continue
-        shift = _ZERO if values.attrs["units"] == "K" and "rise" not in name else 0.0
+        shift = CELSIUS if values.attrs["units"] == "K" and "rise" not in name else 0.0
         largest = max(float(np.abs(values.values - shift).max()), _SMALL * nominals.get(name, 0.0))
         found[name] = values.attrs[ATTRIBUTE] / largest if largest else 0.0
     return found

@@ -2,13 +2,13 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
 from contact_core.quantities import Quantity
 
+from ..charts.chart import Sheet
 from ..parts.part import Part
 from .assembly import Assembly, Contact, Schedule
 from .timeline import Timeline
@@ -38,7 +38,7 @@ class Kind:
     # by contact and input, under signals of the duty as they would be once all has settled
     legend: Mapping[str, str]  # headings of the printed tables, and what they mean
     lines: Callable[[Assembly, xr.Dataset], list[str]]  # the printed report of a run
-    pictures: Callable[[Assembly, xr.Dataset, Path], list[Path]]  # written into a folder; overview.png first
+    pictures: Callable[[Assembly, xr.Dataset], Mapping[str, Sheet]]  # of a run by name; "overview" first
     turning: Callable[[Mapping[str, Part], Mapping[str, float]], dict[str, float]] = lambda parts, signals: {}
     # inputs "part.variable" that the moving parts give then to the part between contacts and heat
     main: tuple[str, ...] = ()  # outputs "part.variable" that matter most; without, nothing is said of what is assumed

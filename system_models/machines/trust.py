@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from contact_core.scene import Case, OperatingPoint
 from contact_core.state import RangeFlag
 
+from ..charts.units import CELSIUS
 from ..parts.part import start_values
 from ..run import flags, grown, verdict
 from ..run.trust import described, regime, span, wrapped
@@ -24,7 +25,6 @@ from .timeline import Timeline
 
 _MOST_ROWS = 100  # of a duty that are looked at
 _ALIKE = 0.99  # of the largest load: rows from there on count as those of the largest
-_ZERO = 273.15  # K, of degC
 _POINT = {*OperatingPoint.__dataclass_fields__}
 
 
@@ -47,7 +47,7 @@ def _most_loaded(kind: Kind, assembly: Assembly, duty: Timeline) -> Iterator[str
         heavy = [row for row, each in zip(rows, loads[name], strict=True) if each >= _ALIKE * load]
         cases = [_case(assembly, name, contacts[name], signals) for contacts, signals in heavy]
         most = f"most loaded {name}" if len(names) > 1 else "at most"
-        oil = span(case.op.temperature - _ZERO for case in cases)
+        oil = span(case.op.temperature - CELSIUS for case in cases)
         told = " ".join(described(cases))
         beside = _beside([_case(assembly, each, heavy[0][0][each], heavy[0][1]) for each in names if loads[each].max()])
         yield f"{who}, {most} with {load:.4g} N, oil at {oil} degC. {told}{beside}"

@@ -1,16 +1,16 @@
 """Build a component's FMU: its description for hosts, and the component itself."""
 
 import inspect
-from collections.abc import Iterator
 from pathlib import Path
 
 from fmu_src.flavours import Flavour, Version
+from fmu_src.html.markup import paragraph, printed, section, table
+from fmu_src.html.page import whole
 from fmu_src.native.built_in import built_in
 from fmu_src.native.files import binaries
 from fmu_src.package.build import check, pack
 from fmu_src.package.compiled import SOURCES, build_description
 from fmu_src.package.describe import Model
-from fmu_src.package.document.markup import paragraph, plain, table
 from fmu_src.variables import Variable
 
 from . import native, resources
@@ -41,7 +41,7 @@ def build(
     listed = built_in(variables(part)) if flavour == "native" else variables(part)
     experiment = {"startTime": 0.0, "stopTime": duration, "stepSize": step_size}
     own = {
-        "documentation/index.html": "\n".join(_page(part, listed)).encode(),
+        "documentation/index.html": _page(part, listed).encode(),
         **_files(part, flavour, fmi, here),
     }
     model = Model(part.name, resources.guid(part, flavour, fmi), part.text, experiment)
@@ -59,10 +59,9 @@ def _files(part: Part, flavour: Flavour, fmi: Version, here: bool) -> dict[str, 
     return {f"{SOURCES}{name}": data for name, data in sources.items()} | libraries
 
 
-def _page(part: Part, listed: tuple[Variable, ...]) -> Iterator[str]:
-    """Yield the documentation: the docstring of the class with its equations, and the variables."""
-    yield f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{plain(part.name)}</title></head><body>'
-    yield f"<h1>{plain(part.name)}</h1>{paragraph(part.text)}<pre>{plain(inspect.getdoc(type(part)) or '')}</pre>"
+def _page(part: Part, listed: tuple[Variable, ...]) -> str:
+    """Return the documentation: the docstring of the class with its equations, and the variables."""
     rows = ([v.name, v.causality, v.unit or "1", v.start if v.has_start else "", v.text] for v in listed)
-    yield table(("variable", "causality", "unit", "start", "meaning"), rows)
-    yield "</body></html>"
+    about = paragraph(part.text) + printed((inspect.getdoc(type(part)) or "").splitlines())
+    variables_ = section("variables", "Variables", table(("variable", "causality", "unit", "start", "meaning"), rows))
+    return whole(part.name, "Part of a machine", about + variables_)

@@ -6,8 +6,8 @@
     assumed                       values that a scene has left to defaults
     causes                        errors at the end of a contact's run, by their causes
     fields, maps                  maps and profiles of a run at some times: collected, and as variables of its result
+    panels                        which quantities of a contact are drawn, and in which words
     track_picture                 picture of wear tracks and tribofilms
-    half_widths                   values with the half widths of their errors as text
     trust, flags, verdict         what to trust of a run: lines before and after it; range flags in numbers; how well
                                   its outputs are known
     grown                         why there are tribofilms where solids do not touch

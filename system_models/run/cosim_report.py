@@ -1,23 +1,18 @@
 """The report of a simulated system: two tables, closing lines, and one picture."""
 
 import json
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..charts.chart import Chart, Line, Sheet
 from ..fmu.printable import printable
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _MOST_ROWS, _MOST_PANELS = 20, 20
 _WIDEST = 60  # letters of a title: a longer one leaves no room for its panel
 _SAME = 0.99  # steps that differ by less need no picture
-_COLOUR = "#0072B2"
 
 
 def recorded(dataset: xr.Dataset) -> list[str]:
@@ -153,35 +148,16 @@ def _first(dataset: xr.Dataset, name: str) -> str:
     return f"{above[0]:g} s" if len(above) else "the end"
 
 
-def write_overview(dataset: xr.Dataset, path: Path) -> Path:
-    """Draw the recorded variables against time, each in a panel of its own, and the step if it changes."""
-    overview(dataset).savefig(path, dpi=150)
-    return path
-
-
-def overview(dataset: xr.Dataset) -> "Figure":
+def overview(dataset: xr.Dataset) -> Sheet:
     """Return the recorded variables against time, each in a panel of its own, and the step if it changes."""
-    from matplotlib.figure import Figure
-
     shown = [name for name in recorded(dataset) if dataset[name].dtype.kind in "fiub"]
     names = shown[:_MOST_PANELS]
     sizes = dataset["master.step_size"].values[1:]
-    if len(sizes) and _varies(sizes):
-        names = [*names, "master.step_size"]
-    columns = 1 if len(names) <= 3 else 2
-    rows = max(1, -(-len(names) // columns))
-    figure = Figure(figsize=(9.0, 0.8 + 1.9 * rows), layout="constrained")
-    axes = figure.subplots(rows, columns, sharex=True, squeeze=False)
-    for axis, name in zip(axes.flat, names, strict=False):
-        _draw(axis, dataset[name])
-    for axis in axes.flat[len(names) :]:
-        axis.set_visible(False)
-    for axis in axes.flat[max(0, len(names) - columns) : len(names)]:
-        axis.set_xlabel("time [s]")
-        axis.tick_params(labelbottom=True)
+    names = [*names, "master.step_size"] if len(sizes) and _varies(sizes) else names
     more = f", {len(shown) - _MOST_PANELS} more in the files" if len(shown) > _MOST_PANELS else ""
-    figure.suptitle(f"{_title(dataset.attrs.get('title', ''))}{more}", fontsize="medium", parse_math=False)
-    return figure
+    columns = 1 if len(names) <= 3 else 2
+    title = f"{_title(dataset.attrs.get('title', ''))}{more}"
+    return Sheet([_chart(dataset[name]) for name in names], title, columns, 9.0 / columns, 1.9)
 
 
 def _title(text: str) -> str:
@@ -190,18 +166,15 @@ def _title(text: str) -> str:
     return text if len(text) <= _WIDEST else f"{text[:half]}...{text[-half:]}"
 
 
-def _draw(axis: "Axes", variable: xr.DataArray) -> None:
-    """Draw a Real as a line, any other type and the step in stairs."""
+def _chart(variable: xr.DataArray) -> Chart:
+    """Return a Real as a line, any other type and the step in stairs."""
     name, unit, kind = str(variable.name), variable.attrs["units"], variable.dtype.kind
     time, values = variable["time"].values, variable.values.astype(float)
+    title = _title(name.removeprefix("master.") + ("" if unit == "1" else f" [{unit}]"))
     if name == "master.step_size":
-        axis.semilogy(time[1:], values[1:], color="black", linewidth=1.0, drawstyle="steps-pre")
-    else:
-        style = "default" if kind == "f" else "steps-post"
-        axis.plot(time, values, color=_COLOUR, linewidth=1.2, drawstyle=style)
+        line = Line("", time[1:], values[1:], place=4, style="|-")
+        return Chart(title, "time [s]", "", [line], logarithmic=True)
+    line = Line("", time, values, style="-" if kind == "f" else "-|")
     if kind == "b":
-        axis.set(ylim=(-0.1, 1.1), yticks=(0.0, 1.0), yticklabels=("false", "true"))
-    title = name.removeprefix("master.") + ("" if unit == "1" else f" [{unit}]")
-    axis.set_title(_title(title), fontsize="medium", loc="left", parse_math=False)
-    axis.margins(x=0.0)
-    axis.spines[["top", "right"]].set_visible(False)
+        return Chart(title, "time [s]", "", [line], y_range=(-0.1, 1.1), y_names={0.0: "false", 1.0: "true"})
+    return Chart(title, "time [s]", "", [line], from_zero=False)

@@ -5,7 +5,7 @@ import json
 from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,19 +15,15 @@ from contact_core.scene import OperatingPoint, units
 from contact_core.scene.toml import unbuild
 from contact_core.scene.tunables import with_values
 
+from ..charts import files
+from ..charts.chart import COLOURS, GREY, NOTHING, Chart, Line, Sheet
 from .cosim_report import aligned
 from .fit import Fit
 from .fit_data import words
 from .fit_estimate import COVERED, Limits
 from .fit_model import Constant
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
 _PERCENT = f"{100.0 * COVERED:.0f} %"
-_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")  # Okabe and Ito
-_MANY = 6  # tests: more share one colour
 
 
 def table(fit: Fit) -> str:
@@ -144,7 +140,7 @@ def write(fit: Fit, name: str, folder: Path) -> list[Path]:
     paths[0].write_text(json.dumps(record(fit), indent=1) + "\n", encoding="utf-8")
     with paths[1].open("w", encoding="utf-8", newline="") as file:
         csv.writer(file).writerows(_rows(fit))
-    figure(fit).savefig(paths[2], dpi=150)
+    files.save(sheet(fit), paths[2])
     paths[3].write_text(set_of(fit, name), encoding="utf-8")
     return paths
 
@@ -223,88 +219,64 @@ def _key(text: str) -> str:
     return text if text.replace("_", "").isalnum() else json.dumps(text)
 
 
-def figure(fit: Fit) -> "Figure":
+def sheet(fit: Fit) -> Sheet:
     """Return the picture: points, curves and bands, a panel for each quantity."""
-    from matplotlib.figure import Figure
-
-    names = fit.measured.quantities
-    drawn = Figure(figsize=(8.0, 1.2 + 3.4 * len(names)), layout="constrained")
-    axes = drawn.subplots(len(names), 1, squeeze=False)[:, 0]
     course = len(fit.drawn.time) > 0
-    for axis, name in zip(axes, names, strict=True):
-        (_course if course else _over_input)(axis, fit, name)
-        unit, _ = people_read(name)
-        axis.set_ylabel(f"{name} [{unit}]")
-        axis.spines[["top", "right"]].set_visible(False)
-    axes[0].legend(frameon=False, fontsize="small", ncols=2)
-    drawn.align_ylabels()
-    drawn.suptitle(
-        f"{fit.measured.source} in {fit.scene.name}, level {fit.level}; bands: {_PERCENT} of measurements",
-        fontsize="medium",
-        parse_math=False,
-    )
-    return drawn
+    charts = [(_course if course else _over_input)(fit, name) for name in fit.measured.quantities]
+    of = f"{fit.measured.source} in {fit.scene.name}, level {fit.level}; bands: {_PERCENT} of measurements"
+    return Sheet(charts, of, columns=1, width=8.0, height=3.4)
 
 
-def _course(axis: "Axes", fit: Fit, name: str) -> None:
-    """Draw a quantity against time, a colour for each test."""
-    _, factor = people_read(name)
-    points, curves = fit.measured, fit.drawn
+def _course(fit: Fit, name: str) -> Chart:
+    """Return a quantity against time, a colour for each test."""
+    unit, factor = people_read(name)
+    points, curves, lines = fit.measured, fit.drawn, []
     for i, text in enumerate(words(points.tests)):
-        colour = _COLOURS[i % len(_COLOURS)]
         line = (curves.test == i) & (curves.quantity == name)
-        minutes, curve, half = curves.time[line] / 60.0, factor * curves.curve[line], factor * curves.half[line]
-        axis.plot(minutes, curve, color=colour, linewidth=1.4, label=text)
-        axis.fill_between(minutes, curve - half, curve + half, color=colour, alpha=0.15, linewidth=0.0)
-        for held in (False, True):
-            here = (points.test == i) & (points.quantity == name) & (fit.held == held)
-            _points(axis, points.time[here] / 60.0, points.value[here], points.sd[here], factor, colour, held)
-    _legend(axis, fit)
-    axis.set_xlabel("time [min]")
-    axis.set_xlim(left=0.0)
+        curve, half = factor * curves.curve[line], factor * curves.half[line]
+        lines.append(Line(text, curves.time[line] / 60.0, curve, half, colour=_colour(i)))
+        here = np.flatnonzero((points.test == i) & (points.quantity == name))
+        lines += _points(fit, here, points.time[here] / 60.0, factor, _colour(i))
     values = points.value[points.quantity == name]
-    if 0.0 <= values.min() < 0.5 * values.max():
-        axis.set_ylim(bottom=0.0)
+    zero = bool(0.0 <= values.min() < 0.5 * values.max())
+    return Chart("", "time [min]", f"{name} [{unit}]", [*lines, *_meaning(fit)], from_zero=zero)
 
 
-def _over_input(axis: "Axes", fit: Fit, name: str) -> None:
-    """Draw a quantity at time 0 against the input that differs most between tests."""
-    _, factor = people_read(name)
-    points = fit.measured
-    swept = _swept(points.tests)
+def _over_input(fit: Fit, name: str) -> Chart:
+    """Return a quantity at time 0 against the input that differs most between tests."""
+    unit, factor = people_read(name)
+    points, swept = fit.measured, _swept(fit.measured.tests)
     here = np.flatnonzero(points.quantity == name)
     x = np.array([float(getattr(points.tests[points.test[i]], swept) or 0.0) for i in here])
     order = np.argsort(x, kind="stable")
     here, x = here[order], x[order]
-    curve, half = factor * fit.estimate.curve[here], factor * fit.estimate.half[here]
-    axis.plot(x, curve, color=_COLOURS[0], linewidth=1.4, label="fit")
-    axis.fill_between(x, curve - half, curve + half, color=_COLOURS[0], alpha=0.15, linewidth=0.0)
-    for held in (False, True):
-        part = fit.held[here] == held
-        _points(axis, x[part], points.value[here[part]], points.sd[here[part]], factor, _COLOURS[0], held)
-    _legend(axis, fit)
-    axis.set_xlabel(f"{swept} [{TABLE[swept].unit}]")
-    if x.min() > 0.0 and x.max() > 10.0 * x.min():
-        axis.set_xscale("log")
-        if (points.value[here] > 0.0).all():
-            axis.set_yscale("log")
-
-
-def _points(
-    axis: "Axes", x: np.ndarray, value: np.ndarray, sd: np.ndarray, factor: float, colour: str, held: bool
-) -> None:
-    axis.errorbar(
-        x, factor * value, yerr=factor * sd if (sd > 0.0).any() else None, color=colour, linestyle="none",
-        marker="s" if held else "o", markersize=5, markerfacecolor="white" if held else colour, elinewidth=0.8,
+    curve = Line("fit", x, factor * fit.estimate.curve[here], factor * fit.estimate.half[here])
+    lines = [curve, *_points(fit, here, x, factor, curve.ink), *_meaning(fit)]
+    wide = bool(x.min() > 0.0 and x.max() > 10.0 * x.min())
+    positive = wide and bool((points.value[here] > 0.0).all())
+    return Chart(
+        "", f"{swept} [{TABLE[swept].unit}]", f"{name} [{unit}]", lines,
+        logarithmic=positive, logarithmic_x=wide, from_zero=False,
     )  # fmt: skip
 
 
-def _legend(axis: "Axes", fit: Fit) -> None:
-    axis.plot([], [], color="0.4", marker="o", markersize=5, linestyle="none", label="fitted")
-    if fit.held.any():
-        axis.plot(
-            [], [], color="0.4", marker="s", markersize=5, markerfacecolor="white", linestyle="none", label="held back"
-        )
+def _points(fit: Fit, here: np.ndarray, x: np.ndarray, factor: float, colour: str) -> Iterator[Line]:
+    """Yield measured numbers at x, those that are held back as hollow squares."""
+    value, sd = factor * fit.measured.value[here], factor * fit.measured.sd[here]
+    for held in (False, True):
+        part = fit.held[here] == held
+        bars = sd[part] if (sd[part] > 0.0).any() else None
+        yield Line("", x[part], value[part], bars, colour=colour, style="sh" if held else "o")
+
+
+def _meaning(fit: Fit) -> list[Line]:
+    """Return the entries of the key for points."""
+    kinds = [("fitted", "o"), *([("held back", "sh")] if fit.held.any() else [])]
+    return [Line(text, NOTHING, NOTHING, colour=GREY, style=style) for text, style in kinds]
+
+
+def _colour(test: int) -> str:
+    return COLOURS[test % len(COLOURS)]
 
 
 def _swept(tests: tuple[OperatingPoint, ...]) -> str:

@@ -14,7 +14,8 @@ from contact_core.regression.surfaces import Tribofilm, regression_film
 from contact_core.scene import Case, OperatingPoint, Scene
 from contact_core.state import RangeFlag
 
-_ZERO = 273.15  # K, of 0 degC
+from ..charts.units import CELSIUS
+
 _TEMPERATURES = range(0, 401)  # degC, at which a tribofilm law is asked whether its constants hold
 _IN_WORDS = {  # of the places of the fitted curves
     "clearance": "film of smooth bodies / roughness",
@@ -59,13 +60,13 @@ def operating_point(row: xr.Dataset) -> OperatingPoint:
 
 def temperatures_of(scene: Scene) -> tuple[float, float] | None:
     """Return the lowest and highest temperature [degC] at which a scene's tribofilm law holds; None if at any."""
-    held = [each for each in _TEMPERATURES if scene.tribofilm.covers(each + _ZERO)]
+    held = [each for each in _TEMPERATURES if scene.tribofilm.covers(each + CELSIUS)]
     return (held[0], held[-1]) if held and len(held) < len(_TEMPERATURES) else None
 
 
 def _temperature(scene: Scene, rows: xr.Dataset) -> str:
     ends = temperatures_of(scene)
-    bodies = np.concatenate([rows[f"temperature_{i}"].values for i in (1, 2)]) - _ZERO
+    bodies = np.concatenate([rows[f"temperature_{i}"].values for i in (1, 2)]) - CELSIUS
     if ends is None:
         return ""
     worst = float(bodies[np.argmax(np.maximum(ends[0] - bodies, bodies - ends[1]))])
@@ -133,7 +134,7 @@ def _unsure(scene: Scene, rows: xr.Dataset) -> str:
 
 
 def _scuffing(scene: Scene, rows: xr.Dataset) -> str:
-    hottest = float(rows["contact_temperature_max"].max()) - _ZERO
+    hottest = float(rows["contact_temperature_max"].max()) - CELSIUS
     return f"scuffing ratio up to {float(rows['scuffing_ratio'].max()):.2f}, {hottest:.0f} degC"
 
 

@@ -5,8 +5,8 @@ import xarray as xr
 
 from contact_core.scene import Case, Scene
 
+from ..charts.half_widths import with_error
 from .flags import operating_point
-from .half_widths import with_error
 
 _TOUCH, _THIN = 1e-3, 1e-10  # share of the load that solids carry where they touch; m, of a film that is told
 _MOST = 0.5  # share of a film that has grown where they do not, from which on it is the oil's

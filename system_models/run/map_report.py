@@ -2,19 +2,17 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contact_core.corrections.map import COORDINATES, OUTPUTS
 from contact_core.scene import OperatingPoint
 
+from ..charts import files
+from ..charts.chart import Chart, Line, Sheet
 from .cosim_report import aligned
-from .map_build import Built
+from .map_build import Built, Judged
 from .map_ranges import OPTIONS
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _NAMES = {"friction_coefficient": "friction", "h_c": "h_c", "contact_load_ratio": "W_c (absolute)"}
 _UNITS = OPTIONS | {"slide_roll": "1"}
@@ -25,7 +23,6 @@ _VALUES: dict[str, Callable[[Built, OperatingPoint], float]] = {
     "temperature": lambda built, point: point.temperature,
     "radius_x": lambda built, point: built.order.scene.shape(point).radius_x,
 }
-_BLUE, _RED, _GREY = "#0072B2", "#D55E00", "#777777"  # Okabe and Ito
 
 
 def lines(built: Built) -> list[str]:
@@ -83,8 +80,7 @@ def write(built: Built, folder: Path) -> list[Path]:
     page.write_text(_page(built, picture.name if built.judged is not None else ""), "utf-8")
     if built.judged is None:
         return [chart, page]
-    _picture(built).savefig(picture, dpi=120)
-    return [chart, page, picture]
+    return [chart, page, files.save(sheet(built.judged), picture)]
 
 
 def _page(built: Built, picture: str) -> str:
@@ -120,22 +116,15 @@ def _markdown(table: list[list[str]]) -> list[str]:
     return [head, "|" + "---|" * len(table[0]), *rest]
 
 
-def _picture(built: Built) -> "Figure":
+def sheet(judged: Judged) -> Sheet:
     """Return the picture: deviations of held-back knots from both levels, against W_c."""
-    from matplotlib.figure import Figure
-
-    judged = built.judged
-    assert judged is not None
-    figure = Figure(figsize=(11.0, 3.6), layout="constrained")
-    for k, (axes, name) in enumerate(zip(figure.subplots(1, len(OUTPUTS)), OUTPUTS, strict=True)):
-        shares = judged.samples.shares
-        axes.axhline(0.0, color=_GREY, linewidth=0.8)
-        axes.plot(shares, 100.0 * judged.raw[:, k], "x", color=_RED, label="regression level")
-        axes.errorbar(
-            shares, 100.0 * judged.off[:, k], 100.0 * judged.stated[:, k],
-            fmt="o", markersize=3, linewidth=0.8, color=_BLUE, label="map, with its and the block's half width",
-        )  # fmt: skip
-        axes.set_xlabel("contact_load_ratio by the regression level")
-        axes.set_ylabel(f"deterministic over it, {_NAMES[name]} [%]")
-    axes.legend(fontsize=7)
-    return figure
+    charts = []
+    for k, name in enumerate(OUTPUTS):
+        raw, off, half = (100.0 * each[:, k] for each in (judged.raw, judged.off, judged.stated))
+        lines = [
+            Line("regression level", judged.samples.shares, raw, place=1, style="x"),
+            Line("map, with its and the block's half width", judged.samples.shares, off, half, style="o"),
+        ]
+        label = f"deterministic over it, {_NAMES[name]} [%]"
+        charts.append(Chart("", "contact_load_ratio by the regression level", label, lines, levels=(0.0,)))
+    return Sheet(charts, columns=len(OUTPUTS), width=4.2, height=3.8)

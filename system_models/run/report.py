@@ -2,38 +2,33 @@
 
 import json
 import math
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
+from ..charts.chart import Sheet, spans_of
+from ..charts.half_widths import Column
 from ..store.results import ASSUMED, half_width
-from .half_widths import cell
+from .panels import FRICTION, LAMBDA, PRESSURE, ROUGHNESS, TRIBOFILM, WEAR, Panel, chart
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-# heading, unit people read, variable, factor from SI, digits
 COLUMNS = (
-    ("friction", "", "friction_coefficient", 1.0, 4),
-    ("h_c", "nm", "h_c", 1e9, 2),
-    ("lambda", "", "lambda_ratio", 1.0, 3),
-    ("tribofilm 1", "nm", "tribofilm_1", 1e9, 2),
-    ("tribofilm 2", "nm", "tribofilm_2", 1e9, 2),
-    ("wear 1", "nm", "wear_depth_1", 1e9, 2),
-    ("wear 2", "nm", "wear_depth_2", 1e9, 2),
-    ("A_c", "", "contact_area_ratio", 1.0, 3),
-    ("W_c", "", "contact_load_ratio", 1.0, 3),
+    Column("friction", "", "friction_coefficient", 1.0, 4),
+    Column("h_c", "nm", "h_c", 1e9, 2),
+    Column("lambda", "", "lambda_ratio", 1.0, 3),
+    Column("tribofilm 1", "nm", "tribofilm_1", 1e9, 2),
+    Column("tribofilm 2", "nm", "tribofilm_2", 1e9, 2),
+    Column("wear 1", "nm", "wear_depth_1", 1e9, 2),
+    Column("wear 2", "nm", "wear_depth_2", 1e9, 2),
+    Column("A_c", "", "contact_area_ratio", 1.0, 3),
+    Column("W_c", "", "contact_load_ratio", 1.0, 3),
 )
 _BELOW = (  # of runs with stresses; those of damage where there is any
-    ("von Mises", "GPa", "von_mises_max", 1e-9, 3),
-    ("at depth", "um", "von_mises_depth", 1e6, 1),
-    ("damage 1", "", "damage_1", 1.0, 4),
-    ("damage 2", "", "damage_2", 1.0, 4),
-    ("pitted 1", "%", "micropitted_area_1", 100.0, 2),
-    ("pitted 2", "%", "micropitted_area_2", 100.0, 2),
+    Column("von Mises", "GPa", "von_mises_max", 1e-9, 3),
+    Column("at depth", "um", "von_mises_depth", 1e6, 1),
+    Column("damage 1", "", "damage_1", 1.0, 4),
+    Column("damage 2", "", "damage_2", 1.0, 4),
+    Column("pitted 1", "%", "micropitted_area_1", 100.0, 2),
+    Column("pitted 2", "%", "micropitted_area_2", 100.0, 2),
 )
 _OFF = {"tribofilm": ("tribofilm_1", "tribofilm_2"), "wear": ("wear_depth_1", "wear_depth_2")}  # columns of a law
 _WITH_ERRORS = {  # in the table; of the others the result has them
@@ -44,32 +39,16 @@ _FEW_ROWS = 12
 _DIGITS, _MOST_DIGITS = 2, 6  # of the time [min]
 _WARM = 0.05  # K: bodies warmer than the oil by more are worth a line
 
-_BLUE, _RED, _BLACK = "#0072B2", "#D55E00", "#000000"  # of Okabe and Ito: which the colour-blind can tell apart
-_Line = tuple[str, str, str]  # variable, legend, colour
-
-
-def _bodies(name: str) -> tuple[_Line, _Line]:
-    return (f"{name}_1", "body 1", _BLUE), (f"{name}_2", "body 2", _RED)
-
-
-# label, factor from SI, lines
-_PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
-    ("friction coefficient", 1.0, (("friction_coefficient", "", _BLACK),)),
-    ("mean tribofilm thickness [nm]", 1e9, _bodies("tribofilm")),
-    ("height [nm]", 1e9, (("h_c", "central film thickness $h_c$", _BLUE), ("sigma", "composite roughness", _RED))),
-    ("mean wear depth [nm]", 1e9, _bodies("wear_depth")),
-    (r"lambda ratio $\lambda$", 1.0, (("lambda_ratio", "", _BLACK),)),
-    ("roughness Rq [nm]", 1e9, _bodies("roughness")),
-    (
-        "share of the solids",
-        1.0,
-        (
-            ("contact_area_ratio", "area $A_c$", _BLUE),
-            ("contact_load_ratio", "load $W_c$", _RED),
-        ),
-    ),
-    ("largest pressure [GPa]", 1e-9, (("pressure_max", "", _BLACK),)),
+_FILM = Panel("Height", ("h_c", "sigma"), ("central film thickness h_c", "composite roughness"), "height", "")
+_SOLIDS = Panel(
+    "Share of the solids",
+    ("contact_area_ratio", "contact_load_ratio"),
+    ("area A_c", "load W_c"),
+    "share",
+    "",
+    share=True,
 )
+_PANELS = (FRICTION, TRIBOFILM, _FILM, WEAR, LAMBDA, ROUGHNESS, _SOLIDS, PRESSURE)
 
 
 def table(dataset: xr.Dataset, width: float = math.inf) -> str:
@@ -84,9 +63,9 @@ def table(dataset: xr.Dataset, width: float = math.inf) -> str:
     left_out = {name for law in _off(dataset) for name in _OFF[law]}
     columns = [["time", "min", *_apart(time[rows] / 60.0)]]
     columns += [
-        [heading, unit, *_stated(dataset, name, rows, factor, digits)]
-        for heading, unit, name, factor, digits in (*COLUMNS, *_below(dataset))
-        if name not in left_out
+        [each.heading, each.unit, *_stated(dataset, each, rows)]
+        for each in (*COLUMNS, *_below(dataset))
+        if each.name not in left_out
     ]
     padded = [[cell.rjust(max(map(len, column))) for cell in column] for column in columns]
     parts = [padded[:1]]
@@ -103,23 +82,19 @@ def _off(dataset: xr.Dataset) -> list[str]:
     return [law for law in _OFF if scene.get(law, {}).get("model") == "none"]
 
 
-def _below(dataset: xr.Dataset) -> list[tuple[str, str, str, float, int]]:
+def _below(dataset: xr.Dataset) -> list[Column]:
     """Return the columns of stress and damage that are not zero throughout."""
-    return [column for column in _BELOW if column[2] in dataset and dataset[column[2]].values.any()]
+    return [each for each in _BELOW if each.name in dataset and dataset[each.name].values.any()]
 
 
-def _stated(dataset: xr.Dataset, name: str, rows: list[int], factor: float, digits: int) -> list[str]:
+def _stated(dataset: xr.Dataset, column: Column, rows: list[int]) -> list[str]:
     """Return values as text, each with the half width of its error where one is stated."""
-    values = factor * dataset[name].values[rows]
-    half = half_width(dataset, name) if name in _WITH_ERRORS else None
-    if half is None:
-        return [f"{value:.{digits}f}" for value in values]
-    halves = factor * half[rows]
-    texts = [cell(name, value, half, digits) for value, half in zip(values, halves, strict=True)]
-    worth = dataset.coords.get(f"{name}{ASSUMED}")
+    half = half_width(dataset, column.name) if column.name in _WITH_ERRORS else None
+    texts = column.cells(dataset[column.name].values[rows], None if half is None else half[rows])
+    worth = dataset.coords.get(f"{column.name}{ASSUMED}") if half is not None else None
     if worth is None:
         return texts
-    return [f"{text} ({factor * each:.2g})" for text, each in zip(texts, worth.values[rows], strict=True)]
+    return [f"{text} ({column.factor * each:.2g})" for text, each in zip(texts, worth.values[rows], strict=True)]
 
 
 def _apart(minutes: np.ndarray) -> list[str]:
@@ -172,45 +147,12 @@ def invalid_rows(dataset: xr.Dataset) -> int:
     return int((~dataset["valid"].values).sum())
 
 
-def write_overview(dataset: xr.Dataset, path: Path) -> Path:
-    """Draw the run into a PNG file and return its path."""
-    overview(dataset).savefig(path, dpi=150)
-    return path
-
-
-def overview(dataset: xr.Dataset) -> "Figure":
+def overview(dataset: xr.Dataset) -> Sheet:
     """Return the picture of the run against time; invalid rows are shaded."""
-    from matplotlib.figure import Figure
-
     ratio = dataset["lambda_ratio"]
     uncapped = ratio.where((ratio > 0.0) & (ratio < 1e3))  # at its caps it says nothing about the roughness
-    shown = dataset.assign(sigma=dataset["h_c"] / uncapped)
-    figure = Figure(figsize=(9.0, 10.0), layout="constrained")
-    axes = figure.subplots(4, 2, sharex=True)
-    for axis, (label, factor, lines) in zip(axes.flat, _PANELS, strict=True):
-        _draw(axis, shown, label, factor, tuple(line for line in lines if line[0] in shown))
-    for axis in axes[-1]:
-        axis.set_xlabel("time [min]")
-    figure.align_ylabels()
-    figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium", parse_math=False)
-    return figure
-
-
-def _draw(axis: "Axes", dataset: xr.Dataset, label: str, factor: float, lines: tuple[_Line, ...]) -> None:
-    minutes = dataset["time"].values / 60.0
-    for name, legend, colour in lines:
-        values = factor * dataset[name].values
-        axis.plot(minutes, values, color=colour, linewidth=1.4, label=legend)
-        half = half_width(dataset, name)
-        if half is not None:
-            low, high = values - factor * half, values + factor * half
-            axis.fill_between(minutes, low, high, color=colour, alpha=0.2, linewidth=0.0)
-    for start, end, valid in zip(minutes[:-1], minutes[1:], dataset["valid"].values[1:], strict=True):
-        if not valid:
-            axis.axvspan(start, end, color="0.85", linewidth=0.0)
-    if len(lines) > 1:
-        axis.legend(frameon=False)
-    axis.set_ylabel(label)
-    axis.set_xlim(minutes[0], minutes[-1])
-    axis.set_ylim(bottom=0.0)
-    axis.spines[["top", "right"]].set_visible(False)
+    shown = dataset.assign(sigma=(dataset["h_c"] / uncapped).assign_attrs(units="m"))
+    invalid = spans_of(dataset["time"].values, ~dataset["valid"].values)
+    there = [(each, [name for name in each.quantities if name in shown]) for each in _PANELS]
+    drawn = [chart(shown, each, names, invalid) for each, names in there if names]
+    return Sheet(drawn, dataset.attrs.get("title", ""))

@@ -1,25 +1,22 @@
 """The report of Stribeck curves: a table of friction, the shift of the curves, and one picture."""
 
-from pathlib import Path
-from typing import TYPE_CHECKING
-
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from contact_core.state import RangeFlag
 
+from ..charts.chart import GREY, NOTHING, Chart, Line, Sheet, shades
 from ..store.results import ERROR
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from .cosim_report import aligned
 
 _SOURCE = "Dawczyk et al. 2019, doi:10.1007/s11249-019-1148-9"
 _ROUGH = ("tribofilm_roughness_1", "tribofilm_roughness_2", "composite_roughness")
-_PANELS = (
-    ("friction_coefficient", "friction coefficient", None),
-    ("lambda_ratio", r"lambda ratio $\lambda$", None),
-    ("contact_load_ratio", "share of the solids in the load, $W_c$", 0.5),
-    ("contact_area_ratio", "real contact area / Hertz area, $A_c$", None),
+_PANELS: tuple[tuple[str, str, str, tuple[float, ...]], ...] = (
+    ("friction_coefficient", "Friction coefficient", "µ", ()),
+    ("lambda_ratio", "Lambda ratio", "λ", ()),
+    ("contact_load_ratio", "Share of the solids in the load", "W_c", (0.5,)),
+    ("contact_area_ratio", "Real contact area over the Hertz area", "A_c", ()),
 )
 
 
@@ -30,18 +27,10 @@ def minutes(dataset: xr.Dataset) -> list[str]:
 
 def table(dataset: xr.Dataset) -> str:
     """Return friction coefficients, a row for each speed and a column for each rubbing time."""
-    head = [["speed", *("friction" for _ in minutes(dataset))], ["m/s", *(f"{time} min" for time in minutes(dataset))]]
-    rows = [
-        [f"{speed:.4g}", *(f"{mu:.4f}" for mu in row)]
-        for speed, row in zip(
-            dataset["entrainment_speed"].values, dataset["friction_coefficient"].values.T.tolist(), strict=True
-        )
-    ]
-    columns = list(zip(*head, *rows, strict=True))
-    widths = [max(map(len, column)) for column in columns]
-    return "\n".join(
-        "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in (*head, *rows)
-    )
+    times, speeds = minutes(dataset), dataset["entrainment_speed"].values
+    head = [["speed", *("friction" for _ in times)], ["m/s", *(f"{time} min" for time in times)]]
+    friction = zip(speeds, dataset["friction_coefficient"].values.T, strict=True)
+    return "\n".join(aligned([*head, *([f"{u:.4g}", *(f"{mu:.4f}" for mu in row)] for u, row in friction)], 0))
 
 
 def shift_lines(dataset: xr.Dataset) -> list[str]:
@@ -109,54 +98,31 @@ def invalid_points(dataset: xr.Dataset) -> int:
     return int((~dataset["valid"].values).sum())
 
 
-def write_figure(dataset: xr.Dataset, path: Path) -> Path:
-    """Draw the curves into a PNG file and return its path."""
-    figure(dataset).savefig(path, dpi=150)
-    return path
-
-
-def figure(dataset: xr.Dataset, title: str = "") -> "Figure":
+def sheet(dataset: xr.Dataset) -> Sheet:
     """Return friction, lambda ratio, load and area of the solids against speed, a line for each rubbing time.
 
     A hollow point stands for film solutions that have not converged, or a dry one in their place.
     """
-    from matplotlib import colormaps
-    from matplotlib.figure import Figure
-    from matplotlib.lines import Line2D
-
-    shown = dataset.where(dataset["lambda_ratio"] < 1e3)  # at its cap it says nothing
-    speeds = dataset["entrainment_speed"].values
     unsure = (dataset["range_flags"].values & (RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK)) > 0
-    figure = Figure(figsize=(9.0, 7.0), layout="constrained")
-    axes = figure.subplots(2, 2, sharex=True)
-    colours = colormaps["viridis"](np.linspace(0.0, 0.9, dataset.sizes["rubbing_time"]))
-    for axis, (name, label, level) in zip(axes.flat, _PANELS, strict=True):
-        values = shown[name] if name == "lambda_ratio" else dataset[name]
-        for text, colour, row in zip(minutes(dataset), colours, values.values, strict=True):
-            axis.plot(speeds, row, "o-", color=colour, markersize=3.5, linewidth=1.4, label=text)
-        if f"{name}{ERROR}" in dataset.coords:
-            for colour, row, half in zip(colours, values.values, dataset[f"{name}{ERROR}"].values, strict=True):
-                axis.fill_between(speeds, row - half, row + half, color=colour, alpha=0.15, linewidth=0.0)
-        for colour, row, doubtful in zip(colours, values.values, unsure, strict=True):
-            axis.plot(speeds[doubtful], row[doubtful], "o", color=colour, markersize=3.5, markerfacecolor="white")
-        if level is not None:
-            axis.axhline(level, color="0.7", linewidth=0.8, linestyle="--", zorder=0)
-        axis.set_xscale("log")
-        axis.set_ylabel(label)
-        axis.set_ylim(bottom=0.0)
-        axis.spines[["top", "right"]].set_visible(False)
-    for axis in axes[-1]:
-        axis.set_xlabel("entrainment speed [m/s]")
-    legend = [Line2D([], [], color=colour, label=text) for text, colour in zip(minutes(dataset), colours, strict=True)]
-    if unsure.any():
-        legend.append(
-            Line2D([], [], color="0.4", marker="o", markersize=3.5, markerfacecolor="white", linestyle="none")
-        )
-        legend[-1].set_label("not converged")
-    axes[0, 0].legend(handles=legend, title="rubbed [min]", frameon=False)
-    figure.align_ylabels()
-    figure.suptitle(title or _title(dataset), fontsize="medium")
-    return figure
+    return Sheet([_curves(dataset, panel, unsure) for panel in _PANELS], _title(dataset), height=3.3)
+
+
+def _curves(dataset: xr.Dataset, panel: tuple[str, str, str, tuple[float, ...]], unsure: NDArray[np.bool_]) -> Chart:
+    name, title, symbol, levels = panel
+    first = panel is _PANELS[0]  # that has the key
+    values, half = dataset[name].values, dataset.coords.get(f"{name}{ERROR}")
+    if name == "lambda_ratio":
+        values = np.where(values < 1e3, values, np.nan)  # at its cap it says nothing
+    speeds, lines = dataset["entrainment_speed"].values, []
+    for k, (time, colour) in enumerate(zip(minutes(dataset), shades(len(values)), strict=True)):
+        band, doubtful = None if half is None else half.values[k], unsure[k]
+        lines.append(Line(time if first else "", speeds, values[k], band, colour=colour, style="o-"))
+        lines.append(Line("", speeds[doubtful], values[k][doubtful], colour=colour, style="oh"))
+    if first and unsure.any():
+        lines.append(Line("not converged", NOTHING, NOTHING, colour=GREY, style="oh"))
+    key, most = "rubbed [min]" if first else "", 1.0 if levels else None
+    x_label, y_label = "entrainment speed [m/s]", f"{symbol} [–]"
+    return Chart(title, x_label, y_label, lines, logarithmic_x=True, levels=levels, key=key, most=most)
 
 
 def _title(dataset: xr.Dataset) -> str:

@@ -10,8 +10,8 @@ from contact_core.quantities import UNSOLVED
 from contact_core.scene import Scene
 from contact_core.state import Error
 
+from ..charts.half_widths import SHARES, says_nothing
 from ..store.results import BAND, half_width
-from .half_widths import SHARES, says_nothing
 
 NAMES = {  # of an output with a stated error: in words
     "friction_coefficient": "friction",

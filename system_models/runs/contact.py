@@ -11,6 +11,7 @@ from contact_core.scene import Assumed, Scene
 from contact_core.state import Error
 from fmu_src.package.build import build
 
+from ..charts import files
 from ..run import assumed as assumed_values
 from ..run import causes, contact, origin, report, track_picture, trust
 from ..run.duty import Duty
@@ -135,9 +136,9 @@ class _Job(NamedTuple):
         dataset = dataset.assign_attrs(causes.attribute(errors))
         self.listener.say(report.table(dataset, trust.width()), *trust.legend())
         self.listener.say(*trust.wrapped(*report.closing_lines(dataset)), *trust.after(scene, dataset, errors))
-        written = [*results.write(dataset, folder, maps=maps), report.write_overview(dataset, folder / "overview.png")]
-        if maps:
-            written.append(track_picture.write(dataset, maps, folder / "track.png"))
+        drawn = {"overview": report.overview(dataset)}
+        drawn |= {"track": track_picture.picture(dataset, maps)} if maps else {}
+        written = [*results.write(dataset, folder, maps=maps), *files.write(drawn, folder)]
         self.listener.say(f"Written: {', '.join(map(str, written))}")
         reliable = not report.invalid_rows(dataset)
         return Finished(dataset, folder, reliable, tuple(map(Path, written)), errors)

@@ -14,6 +14,7 @@ from contact_core.errors import ContactError
 from contact_core.scene import Assumed
 from fmu_src.flavours import Flavour
 
+from ..charts import files
 from ..machines import assumed as assumed_of_machines
 from ..machines import causes, corrected, coupling_error, reading, resolve, tables, trust
 from ..machines import report as machine_report
@@ -123,7 +124,7 @@ class _Job:
         found = causes.attribute(assembly, dataset, self.folder) | assumed_of_machines.attribute(worth)
         dataset = dataset.assign_attrs(found)
         written = results.write(dataset.assign_attrs({EXIT_CODE: int(bool(wrong))}), self.folder)
-        written = [*written, *kind.pictures(assembly, dataset, self.folder)]
+        written = [*written, *files.write(kind.pictures(assembly, dataset), self.folder)]
         say(f"Written: {', '.join(map(str, written))}")
         return Finished(dataset, self.folder, not wrong, tuple(map(Path, written)))
 

@@ -99,26 +99,19 @@ def _counted(name: str, column: xr.DataArray) -> xr.DataArray:
     return column.isel({MEMBER: 0}, drop=True).copy(data=found)
 
 
-def ends_of(result: xr.Dataset, members: xr.Dataset) -> list[tuple[str, str, list[float], int]]:
-    """Return, of each main quantity at the end, heading, unit, numbers in that unit and their digits.
+def ends_of(result: xr.Dataset, members: xr.Dataset) -> list[tuple[str, list[float], int]]:
+    """Return, of each main quantity at the end, heading with unit, numbers in that unit and their digits.
 
     The numbers are the mean, its band, the standard deviation, the stated half width (nan: none), and each member.
     """
     last, each = ends(result), ends(members)
     found = []
-    for heading, unit, name, factor, digits in COLUMNS:
-        values = np.asarray(each[name].values, dtype=float)
-        if not np.nan_to_num(values).any():
-            continue
-        stated = float(last[f"{name}{ERROR}"]) if f"{name}{ERROR}" in last.coords else math.nan
-        numbers = [
-            float(last[name]),
-            float(last[f"{name}{BAND}"]),
-            float(last[f"{name}{SD}"]),
-            stated,
-            *values.tolist(),
-        ]
-        found.append((heading, unit, [factor * number for number in numbers], digits))
+    for column in COLUMNS:
+        name, values = column.name, np.asarray(each[column.name].values, dtype=float)
+        if np.nan_to_num(values).any():
+            stated = float(last[f"{name}{ERROR}"]) if f"{name}{ERROR}" in last.coords else math.nan
+            own = [float(last[f"{name}{end}"]) for end in ("", BAND, SD)]
+            found.append((column.title, [column.factor * x for x in (*own, stated, *values.tolist())], column.digits))
     return found
 
 
@@ -126,9 +119,8 @@ def table(members: Members, result: xr.Dataset, dataset: xr.Dataset) -> tuple[li
     """Return the ends of an ensemble as lines of text, and a paragraph on its columns."""
     shown = [f"{number}" for number in range(1, len(members.names) + 1)]
     rows = [["at the end", *HEADINGS, *shown]]
-    for heading, unit, numbers, digits in ends_of(result, dataset):
-        cells = ["none" if math.isnan(number) else f"{number:.{digits}f}" for number in numbers]
-        rows.append([f"{heading} [{unit}]" if unit else heading, *cells])
+    for title, numbers, digits in ends_of(result, dataset):
+        rows.append([title, *("none" if math.isnan(number) else f"{number:.{digits}f}" for number in numbers)])
     names = ", ".join(f"{number} {name}" for number, name in zip(shown, members.names, strict=True))
-    alike = all(numbers[2] == 0.0 for _, _, numbers, _ in ends_of(result, dataset))
+    alike = all(numbers[2] == 0.0 for _, numbers, _ in ends_of(result, dataset))
     return list(aligned(rows, 0)), f"{EXPLAINED} Members: {names}." + (f" {_ALIKE}" if alike else "")

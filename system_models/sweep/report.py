@@ -3,8 +3,6 @@
 import itertools
 import textwrap
 from collections.abc import Callable, Iterator
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -12,34 +10,31 @@ import xarray as xr
 from contact_core.scene import Scene
 from contact_core.state import RangeFlag
 
+from ..charts.chart import Chart, Line, Sheet
+from ..charts.half_widths import SHARES, UNKNOWN, Column, says_nothing, with_error
 from ..run.cosim_report import aligned
 from ..run.flags import by_how_much
-from ..run.half_widths import SHARES, UNKNOWN, cell, says_nothing, with_error
 from ..run.report import COLUMNS
 from ..store.results import ERROR
 from .ensemble import averaged, patches_of
-from .plan import Plan, Point
+from .plan import Factor, Plan, Point
 from .points import ends
 from .sensitivity import Indices
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 OUTPUTS = (  # in tables and pictures
     *("friction_coefficient", "h_c", "contact_load_ratio"),
     *("tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2"),
 )
 _MOST_ROWS = 40
-_BLUE = "#0072B2"  # of Okabe and Ito
 
 
-def shown(dataset: xr.Dataset) -> list[tuple[str, str, str, float, int]]:
+def shown(dataset: xr.Dataset) -> list[Column]:
     """Return the columns whose values are not all zero, or not known."""
     last, open_ = ends(dataset), _unknown(dataset)
     return [
         column
         for column in COLUMNS
-        if column[2] in OUTPUTS and (np.nan_to_num(last[column[2]].values).any() or column[0] in open_)
+        if column.name in OUTPUTS and (np.nan_to_num(last[column.name].values).any() or column.heading in open_)
     ]
 
 
@@ -51,25 +46,19 @@ def table(plan: Plan, dataset: xr.Dataset) -> str:
     if plan.method == "indices" or len(points) > _MOST_ROWS:
         return _spread(last, dataset)
     columns = [[factor.key, *(point.settings[factor.key] for point in points)] for factor in plan.factors]
-    for heading, unit, name, factor, digits in shown(dataset):
-        values = factor * last[name].values.ravel()
-        halves = (
-            factor * last.coords[f"{name}{ERROR}"].values.ravel() if f"{name}{ERROR}" in last.coords else 0 * values
-        )
-        cells = [
-            "refused" if reason else cell(name, value, half, digits)
-            for value, half, reason in zip(values, halves, flat, strict=True)
-        ]
-        columns.append([f"{heading} [{unit}]" if unit else heading, *cells])
+    for each in shown(dataset):
+        half = last.coords.get(f"{each.name}{ERROR}")
+        cells = each.cells(last[each.name].values.ravel(), None if half is None else half.values.ravel())
+        columns.append([each.title, *("refused" if why else text for text, why in zip(cells, flat, strict=True))])
     return _aligned(columns)
 
 
 def _spread(last: xr.Dataset, dataset: xr.Dataset) -> str:
     columns: list[list[str]] = [["output"], ["least"], ["2.5 %"], ["median"], ["97.5 %"], ["largest"]]
-    for heading, unit, name, factor, digits in shown(dataset):
-        values = factor * last[name].values[np.isfinite(last[name].values)]
-        cells = [f"{value:.{digits}f}" for value in np.quantile(values, (0.0, 0.025, 0.5, 0.975, 1.0))]
-        for column, text in zip(columns, [f"{heading} [{unit}]" if unit else heading, *cells], strict=True):
+    for each in shown(dataset):
+        values = last[each.name].values[np.isfinite(last[each.name].values)]
+        cells = each.cells(np.quantile(values, (0.0, 0.025, 0.5, 0.975, 1.0)))
+        for column, text in zip(columns, [each.title, *cells], strict=True):
             column.append(text)
     return _aligned(columns)
 
@@ -148,20 +137,20 @@ def _unknown(dataset: xr.Dataset) -> dict[str, int]:
 def _means(plan: Plan, dataset: xr.Dataset) -> list[str]:
     """Return a heading and the table of means over patches, a row for each choice of the other keys."""
     keys = patches_of(plan)
-    found = averaged(plan, ends(dataset), [column[2] for column in shown(dataset)])
+    found = averaged(plan, ends(dataset), [column.name for column in shown(dataset)])
     others = [factor for factor in plan.grid if factor.key not in keys]
     counts = found["count"].values.ravel()
     if plan.sampled or counts.size > _MOST_ROWS:
         return []
     rows = list(itertools.product(*(factor.choices for factor in others)))
     columns = [[factor.key, *(row[k] for row in rows)] for k, factor in enumerate(others)]
-    for heading, unit, name, factor, digits in shown(dataset):
-        mean, band, sd = (factor * found[f"{name}{end}"].values.ravel() for end in ("", "_band", "_sd"))
+    for each in shown(dataset):
+        mean, band, sd = (each.factor * found[f"{each.name}{end}"].values.ravel() for end in ("", "_band", "_sd"))
         cells = [
-            f"{with_error(m, b, digits)} (sd {s:.2g})" if n > 1 else "one patch"
+            f"{with_error(m, b, each.digits)} (sd {s:.2g})" if n > 1 else "one patch"
             for m, b, s, n in zip(mean, band, sd, counts, strict=True)
         ]
-        columns.append([f"{heading} [{unit}]" if unit else heading, *cells])
+        columns.append([each.title, *cells])
     heading = (
         f"Mean over {int(counts.max())} of {', '.join(keys)}, its band of 95 % (Student's t), and the standard "
         "deviation between them; each run's stated error comes on top."
@@ -187,68 +176,43 @@ def _known(dataset: xr.Dataset) -> list[str]:
     return [f"A run alone is known to, at its end (median): {', '.join(parts)}."] if parts else []
 
 
-def write_picture(plan: Plan, dataset: xr.Dataset, file: Path) -> Path:
-    """Write the picture and return its path: a panel for each output, of samples one for each key that they vary."""
-    from matplotlib.figure import Figure
-
+def sheet(plan: Plan, dataset: xr.Dataset) -> Sheet:
+    """Return the picture: a panel for each output, of samples one for each key that they vary."""
     last, columns = ends(dataset), shown(dataset)
     if plan.sampled:
-        across, down = len(plan.sampled), len(columns)
+        charts = [_dots(last, each, column) for column in columns for each in plan.sampled]
     else:
-        across = min(3, len(columns))
-        down = -(-len(columns) // across)
-    figure = Figure(figsize=(4.0 * across + 1.0, 2.6 * down + 0.6), layout="constrained")
-    axes = figure.subplots(down, across, squeeze=False)
-    for k, (heading, unit, name, factor, _) in enumerate(columns):
-        label = f"{heading} [{unit}]" if unit else heading
-        if plan.sampled:
-            axes[k][0].set_ylabel(label)
-            for axis, each in zip(axes[k], plan.sampled, strict=True):
-                _dots(axis, last, each.key, name, factor)
-                axis.set_xscale("log" if each.logarithmic else "linear")
-                axis.set_xlabel(f"{each.key} [{each.unit}]" if each.unit and k == down - 1 else "")
-        else:
-            axis = axes.flat[k]
-            axis.set_ylabel(label)
-            _curves(axis, plan, last, name, factor, legend=k == 0)
-    for axis in axes.flat[len(columns) :] if not plan.sampled else ():
-        axis.set_axis_off()
-    title = textwrap.fill(dataset.attrs["title"], 40 * across)
+        charts = [_curves(plan, last, column, keyed=k == 0) for k, column in enumerate(columns)]
+    across = len(plan.sampled) if plan.sampled else min(3, len(columns))
     bars = "at the end of each run; bands and bars: stated errors (95 %)"
-    figure.suptitle(f"{title}\n{bars}", fontsize=9, parse_math=False)
-    figure.savefig(file, dpi=120)
-    return file
+    title = f"{textwrap.fill(dataset.attrs['title'], 40 * across)}\n{bars}"
+    return Sheet(charts, title, across, 4.2)
 
 
-def _dots(axis: "Axes", last: xr.Dataset, key: str, name: str, factor: float) -> None:
-    """Draw an output over a sampled key, one dot with its error for each sample."""
+def _dots(last: xr.Dataset, key: Factor, column: Column) -> Chart:
+    """Return an output over a sampled key, one dot with its error for each sample."""
+    name, factor = column.name, column.factor
     values = factor * last[name].transpose("sample", ...).values.reshape(last.sizes["sample"], -1)
-    where = np.repeat(last[key].values[:, None], values.shape[1], axis=1)
-    if f"{name}{ERROR}" in last.coords:
-        halves = factor * last.coords[f"{name}{ERROR}"].transpose("sample", ...).values.reshape(values.shape)
-        axis.errorbar(where.ravel(), values.ravel(), halves.ravel(), fmt="none", ecolor="#BBBBBB", lw=0.6)
-    axis.plot(where.ravel(), values.ravel(), "o", ms=3, color=_BLUE)
+    where, half = np.repeat(last[key.key].values[:, None], values.shape[1], axis=1), last.coords.get(f"{name}{ERROR}")
+    bars = None if half is None else factor * half.transpose("sample", ...).values.ravel()
+    dots = Line("", where.ravel(), values.ravel(), bars, style="o")
+    label = f"{key.key} [{key.unit}]" if key.unit else key.key
+    return Chart("", label, column.title, [dots], logarithmic_x=key.logarithmic, from_zero=False)
 
 
-def _curves(axis: "Axes", plan: Plan, last: xr.Dataset, name: str, factor: float, legend: bool) -> None:
-    """Draw an output over the longest axis of the grid, a curve for each choice of the others."""
+def _curves(plan: Plan, last: xr.Dataset, column: Column, keyed: bool) -> Chart:
+    """Return an output over the longest axis of the grid, a curve for each choice of the others."""
+    name, factor = column.name, column.factor
     along = max(plan.grid, key=lambda each: len(each.choices))
     others = [each for each in plan.grid if each is not along]
-    where = last[along.key].values
-    numbers = np.issubdtype(np.asarray(where).dtype, np.number)
-    half = last.coords.get(f"{name}{ERROR}")
-    for place in itertools.product(*(range(len(each.choices)) for each in others)):
-        here = {each.key: k for each, k in zip(others, place, strict=True)}
-        values = factor * last[name].isel(here).values
-        label = ", ".join(f"{each.key} = {each.choices[k]}" for each, k in zip(others, place, strict=True))
-        (line,) = axis.plot(where, values, "o-", ms=3, lw=1, label=label)
-        if half is not None:
-            width = factor * half.isel(here).values
-            if numbers:
-                axis.fill_between(where, values - width, values + width, color=line.get_color(), alpha=0.12, lw=0)
-            else:
-                axis.errorbar(where, values, width, fmt="none", ecolor=line.get_color(), lw=1)
-    axis.set_xlabel(f"{along.key} [{last[along.key].attrs['units']}]" if numbers else along.key)
-    if others and legend:
-        for text in axis.legend(fontsize=6).get_texts():
-            text.set_parse_math(False)
+    numbers = np.issubdtype(last[along.key].dtype, np.number)
+    where = last[along.key].values if numbers else np.arange(len(along.choices), dtype=float)
+    half, lines = last.coords.get(f"{name}{ERROR}"), []
+    for place, choice in enumerate(itertools.product(*(range(len(each.choices)) for each in others))):
+        here = {each.key: k for each, k in zip(others, choice, strict=True)}
+        label = ", ".join(f"{each.key} = {each.choices[k]}" for each, k in zip(others, choice, strict=True))
+        values, width = last[name].isel(here).values, None if half is None else factor * half.isel(here).values
+        lines.append(Line(label if keyed else "", where, factor * values, width, place, style="o-"))
+    x_label = f"{along.key} [{last[along.key].attrs['units']}]" if numbers else along.key
+    names = {} if numbers else dict(zip(where.tolist(), map(str, along.choices), strict=True))
+    return Chart("", x_label, column.title, lines, from_zero=False, x_names=names)

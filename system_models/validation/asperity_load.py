@@ -10,7 +10,7 @@ from contact_core import OperatingPoint, Outputs, Scene, advance, initial_state
 from contact_core.laws.asperity_layer import ELASTIC_HEIGHT, PLASTIC_HEIGHT
 from contact_core.scene import Case
 
-from .model import Comparison, Curve, Kind, Outcome, Row
+from .model import Comparison, Kind, Outcome, Row, compared
 from .tables import read
 
 PAGE = "docs/measured/surfaces/asperity_load_share.md"
@@ -152,7 +152,7 @@ def run() -> Outcome:
     rows = [*law, *(_contact(name, k) for name in CONTACTS for k in range(len(LAMBDAS)))]
     at, shares = zip(*((x, y) for over in fits().values() for x, y in over.items() if x <= _THICKEST), strict=True)
     computed = np.array(ratios), np.array([row.computed for row in law])
-    curve = Curve(
+    curve = compared(
         "our dry roughness by the method of the fits", "lambda", "share of the load on the solids",
         (np.array(at), np.array(shares)), computed, logarithmic=True,
     )  # fmt: skip

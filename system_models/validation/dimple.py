@@ -5,7 +5,7 @@ import numpy as np
 from contact_core import Scene, initial_state, march
 from contact_core.deterministic.transient import rolled
 
-from .model import Array, Comparison, Curve, Kind, Outcome, Row, exactly, relative, rounding
+from .model import Array, Comparison, Kind, Outcome, Row, compared, exactly, relative, rounding
 from .tables import read
 
 DIMPLE = {2: -87e-6, 3: -49e-6, 4: 24e-6, 5: 113e-6}  # m: middle of the dimple in each profile; not in the first one
@@ -80,7 +80,7 @@ def run() -> Outcome:
         x, gap = fine[profile]
         shown = np.abs(x) < 1.2 * A
         curves.append(
-            Curve(
+            compared(
                 f"profile {profile}", "x [um]", "gap [nm]", (1e6 * at, 1e9 * film), (1e6 * x[shown], 1e9 * gap[shown])
             )
         )

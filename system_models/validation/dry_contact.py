@@ -5,7 +5,7 @@ import numpy as np
 from contact_core import dry_contact
 from contact_core.reference import hertz_point
 
-from .model import Array, Comparison, Curve, Kind, Outcome, Row, exactly
+from .model import Array, Comparison, Kind, Outcome, Row, compared, exactly
 
 LOAD, RADIUS, MODULUS, ACCURACY = 50.0, 9.525e-3, 2.3e11, 0.01
 NODES = 65
@@ -30,7 +30,7 @@ def run() -> Outcome:
     middle = found.pressure[found.pressure.shape[0] // 2]
     x = (np.arange(middle.size) - middle.size // 2) * found.spacing / hertz.a
     exact: Array = hertz.pressure_max * np.sqrt(np.maximum(1.0 - x**2, 0.0))
-    curve = Curve("pressure", "x / a", "p [GPa]", (x, 1e-9 * exact), (x, 1e-9 * middle))
+    curve = compared("pressure", "x / a", "p [GPa]", (x, 1e-9 * exact), (x, 1e-9 * middle))
     return Outcome(rows, (curve,))
 
 

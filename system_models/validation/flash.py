@@ -5,7 +5,7 @@ import numpy as np
 from contact_core.kernels.moving_source import MovingSurface
 from contact_core.reference import jaeger_circle, tian_kennedy_circle
 
-from .model import Array, Comparison, Curve, Kind, Outcome, Row, exactly
+from .model import Array, Comparison, Kind, Outcome, Row, compared, exactly
 
 CONDUCTIVITY, DIFFUSIVITY, RADIUS = 46.0, 1.25e-5, 1e-5  # W/(m K), m2/s, m
 PECLETS = (0.1, 1.0, 10.0, 100.0)  # of the radius: u r / (2 kappa)
@@ -39,7 +39,7 @@ def run() -> Outcome:
         means.append(found[1])
     at = np.geomspace(PECLETS[0], PECLETS[-1], 40)
     formula = np.array([tian_kennedy_circle(peclet)[1] for peclet in at])
-    curve = Curve(
+    curve = compared(
         "mean rise; line of the reference: Tian and Kennedy", "Peclet number", "rise K / (q r)", (at, formula),
         (np.array(PECLETS), np.array(means)), logarithmic=True,
     )  # fmt: skip

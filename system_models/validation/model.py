@@ -5,10 +5,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
-import numpy as np
-from numpy.typing import NDArray
+from ..charts.chart import BLACK, Array, Chart, Line
 
-Array = NDArray[np.float64]
+_FEW = 10  # points that are marked
 
 
 class Kind(StrEnum):
@@ -92,17 +91,21 @@ def exactly(value: float) -> tuple[float, float]:
     return value, value
 
 
-@dataclass(frozen=True)
-class Curve:
-    """A reference and an answer over the same axis, for a picture."""
-
-    title: str
-    x_label: str
-    y_label: str
-    reference: tuple[Array, Array]
-    computed: tuple[Array, Array]
-    deviations: Array | None = None  # standard deviations of the reference
-    logarithmic: bool = False
+def compared(
+    title: str,
+    x_label: str,
+    y_label: str,
+    reference: tuple[Array, Array],
+    computed: tuple[Array, Array],
+    deviations: Array | None = None,
+    logarithmic: bool = False,
+) -> Chart:
+    """Return a reference and an answer over the same axis; `deviations`: standard deviations of the reference."""
+    lines = [
+        Line("reference", *reference, deviations, colour=BLACK, style="o"),
+        Line("computed", *computed, style="o-" if computed[0].size < _FEW else "-"),
+    ]
+    return Chart(title, x_label, y_label, lines, logarithmic=logarithmic, logarithmic_x=logarithmic, from_zero=False)
 
 
 @dataclass(frozen=True)
@@ -110,7 +113,7 @@ class Outcome:
     """Rows and curves of a comparison that has been run, or why it could not be."""
 
     rows: tuple[Row, ...]
-    curves: tuple[Curve, ...] = ()
+    curves: tuple[Chart, ...] = ()
     failure: str = ""
 
     @property

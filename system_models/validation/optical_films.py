@@ -8,7 +8,7 @@ import numpy as np
 from contact_core import ConvergenceError, point_contact
 from contact_core.laws.viscosity import AstmD341
 
-from .model import Array, Comparison, Curve, Kind, Outcome, Row, exactly
+from .model import Array, Comparison, Kind, Outcome, Row, compared, exactly
 from .tables import read
 
 BALL, MODULUS = 9.525e-3, 2.0 / ((1.0 - 0.3**2) / 207e9 + (1.0 - 0.22**2) / 75e9)  # m; Pa, steel on glass
@@ -93,7 +93,7 @@ def run() -> Outcome:
         ),
     )  # fmt: skip
     mean = np.sqrt(low.found * high.found)
-    curve = Curve(
+    curve = compared(
         "central films", "entrainment speed [m/s]", "film [nm]", (low.speed, 1e9 * low.measured),
         (low.speed, 1e9 * mean), 1e9 * low.deviation, logarithmic=True,
     )  # fmt: skip

@@ -4,7 +4,7 @@ import numpy as np
 
 from contact_core import subsurface_stress
 
-from .model import Array, Comparison, Curve, Kind, Outcome, Row, exactly
+from .model import Array, Comparison, Kind, Outcome, Row, compared, exactly
 
 CELLS = 24  # across the half width
 DEPTHS = np.arange(0.2, 1.21, 0.02)  # over the half width
@@ -39,7 +39,7 @@ def run() -> Outcome:
             Row(f"its depth below a {name} / a", "", exactly(depth), at, DIGIT, reason),
         ]
         curves.append(
-            Curve(
+            compared(
                 f"below a {name}", "depth / a", "shear / p_H", (np.array([depth]), np.array([shear])), (DEPTHS, below)
             )
         )

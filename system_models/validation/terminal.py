@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Mapping
 
+from ..run.cosim_report import aligned
 from .model import Comparison, Outcome, Row, Verdict
 
 
@@ -34,11 +35,8 @@ def render(name: str, comparison: Comparison, outcome: Outcome) -> str:
     lines = [f"{name} ({comparison.kind}): {comparison.title}. {outcome.verdict}."]
     if outcome.failure:
         return "\n".join([*lines, f"  cannot be computed: {outcome.failure}"])
-    table = [HEADINGS, *(cells(row) for row in outcome.rows)]
-    widths = [max(len(line[k]) for line in table) for k in range(len(HEADINGS))]
-    texts = [
-        "  " + "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip() for line in table
-    ]
+    rows = [list(HEADINGS), *(list(cells(row)) for row in outcome.rows)]
+    texts = [f"  {text}" for text in aligned(rows, len(HEADINGS))]
     lines.append(texts[0])
     for text, row in zip(texts[1:], outcome.rows, strict=True):
         lines.append(text)

@@ -8,7 +8,7 @@ import numpy as np
 from contact_core import Outputs, Scene, advance, initial_state
 from contact_core.reference import SmoothContact, ghanbarzadeh_thickness, hamrock_dowson
 
-from .model import Array, Cause, Comparison, Curve, Kind, Outcome, Row, exactly
+from .model import Array, Cause, Comparison, Kind, Outcome, Row, compared, exactly
 
 STEP, STEPS = 60.0, 120  # s
 LATE = 0.9  # of the largest film: established
@@ -162,7 +162,7 @@ def run() -> Outcome:
     for name, found in (("azam_case_a", a), ("mtm_zddp", b)):
         exact = PRINTED[name].always_rubbed(np.asarray(60.0 * minutes, np.float64))
         curves.append(
-            Curve(
+            compared(
                 f"{name}: film of the ball; reference: always rubbed",
                 "time [min]",
                 "film [nm]",

@@ -25,10 +25,10 @@ from contact_core.laws import SLOTS
 from contact_core.laws.rheology import Carreau
 from contact_core.scene import Lubricant
 from contact_core.shapes import GEOMETRIES
+from fmu_src.html.markup import equation
 from fmu_src.package import evidence, icon, licences
 from fmu_src.package.build import build
 from fmu_src.package.document import measured
-from fmu_src.package.document.markup import equation
 from fmu_src.package.document.page import documentation
 from fmu_src.runtime.slave import ContactSlave
 from fmu_src.variables import variables
@@ -291,7 +291,7 @@ def numbers(line: str) -> list[str]:
 
 @pytest.mark.parametrize(
     "figures",
-    [*(table for tables in measured.ERRORS.values() for table in tables), *measured.COSTS.values()],
+    [each for kind in ("errors", "costs") for tables in measured.tables(kind).values() for each in tables],
     ids=lambda table: table.title[:30],
 )
 def test_measured_figures_are_those_of_the_benchmarks_page(figures):

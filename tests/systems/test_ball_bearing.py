@@ -12,8 +12,10 @@ from matplotlib.image import imread
 
 from contact_core.errors import SceneError
 from contact_core.reference import nijenbanning_venner_moes
+from system_models.charts import files
 from system_models.machines import reading, timeline
 from system_models.machines.assembly import Assembly
+from system_models.machines.ball_bearing import pictures as ball_bearing_pictures
 from system_models.machines.ball_bearing import report as ball_bearing_report
 from system_models.machines.ball_bearing.geometry import BEARING_209, BEARING_218, RaceName
 from system_models.machines.ball_bearing.lives import RatedRun
@@ -221,7 +223,7 @@ def test_the_report_takes_any_duty(duty: str, tmp_path: Path, drawn: bool) -> No
     assert "inner_1" in said
     assert ("2 starts" in said) == (duty == "cycle")
     assert ("does not turn" in said) == (duty == "standstill")
-    paths = ball_bearing_report.write(assembly, dataset, tmp_path)
+    paths = files.write(ball_bearing_pictures.sheets(assembly, dataset), tmp_path)
     assert [path.name for path in paths] == ["overview.png", "load_zone.png", "surfaces.png"]
     for path in paths if drawn and duty == "cycle" else ():
         picture: Any = imread(path)

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from comparison import approx
 
+from system_models.charts import files
 from system_models.machines import reading
-from system_models.machines.cam_follower import report
+from system_models.machines.cam_follower import pictures, report
 from system_models.machines.cam_follower.record import Record
 from system_models.master import simulate
 
@@ -71,7 +72,7 @@ def test_the_report_has_a_row_for_each_station_and_pictures(record: Record, tmp_
     assert sum(line.split()[:1] == ["base"] for line in lines) == 1
     assert len([line for line in lines if line and line.split()[0].lstrip("-").replace(".", "").isdigit()]) == STATIONS
     assert not any("LEAVE" in line for line in lines)
-    written = report.write(record.assembly, record.dataset, tmp_path)
+    written = files.write(pictures.sheets(record.assembly, record.dataset), tmp_path)
     assert [path.name for path in written] == ["overview.png", "time.png"]
 
 

@@ -16,6 +16,7 @@ from test_resume import KILLED, bits
 
 from benchmarks.models import build
 from contact_core import StateError
+from system_models.charts import files
 from system_models.cli.main import main
 from system_models.master import CouplingError, System, saving, simulate
 from system_models.master.settings import Settings
@@ -69,7 +70,7 @@ def car(fmus: dict[str, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 @pytest.fixture
 def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     """Spare the time of drawing."""
-    monkeypatch.setattr(cosim_report, "write_overview", lambda dataset, path: path)
+    monkeypatch.setattr(files, "save", lambda sheet, path, dpi=150: path)
 
 
 def result(folder: str) -> xr.Dataset:
@@ -206,12 +207,12 @@ def test_the_picture_has_a_panel_for_each_output_and_for_a_changing_step(fmus: d
     columns["master.step_size"] = ("time", np.array([0.0, 0.1, 0.2, 0.3, 0.4]), {"units": "s"})
     columns["master.error"] = ("time", time, {"units": "1"})
     dataset = xr.Dataset(columns, {"time": time}, {"title": "many"})
-    titles = [axis.get_title("left") for axis in cosim_report.overview(dataset).axes if axis.get_visible()]
+    titles = [chart.title for chart in cosim_report.overview(dataset).charts]
     assert titles == [*(f"a.x{n}" for n in range(18)), "a.on", "step_size [s]"]
     more = dataset.assign({f"b.y{n}": ("time", time, {"units": "m"}) for n in range(5)})
-    figure = cosim_report.overview(more)
-    assert len([axis for axis in figure.axes if axis.get_visible()]) == 21
-    assert figure.get_suptitle() == "many, 4 more in the files"
+    sheet = cosim_report.overview(more)
+    assert len(files.figure(sheet).axes) == 21
+    assert sheet.title == "many, 4 more in the files"
 
 
 SCHEMES: list[dict[str, Any]] = [

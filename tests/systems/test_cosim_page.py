@@ -12,9 +12,9 @@ import pytest
 import xarray as xr
 from comparison import approx
 
+from system_models.charts import files
 from system_models.cli.main import main
 from system_models.master import reading
-from system_models.run import cosim_report
 
 PAGE = (Path(__file__).parents[2] / "docs" / "how-to" / "cosim.md").read_text("utf-8")
 
@@ -41,7 +41,7 @@ def test_the_example_runs_as_it_is_shown(
 ) -> None:
     monkeypatch.chdir(folder)
     monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
-    monkeypatch.setattr(cosim_report, "write_overview", lambda dataset, path: path)
+    monkeypatch.setattr(files, "save", lambda sheet, path, dpi=150: path)
     (commands,) = blocks("sh")
     for command in commands.splitlines():
         program, *arguments = shlex.split(command)

@@ -16,13 +16,14 @@ import pytest
 import xarray as xr
 from built import Built
 from comparison import approx
-from matplotlib.figure import Figure
 from test_resume import KILLED, bits
 
 from contact_core import ContactError, OperatingPoint, Scene, StateError, initial_state, solve
 from contact_core.surfaces.patches import widened
+from system_models.charts import files
+from system_models.charts.chart import Chart
 from system_models.cli.main import main
-from system_models.run import maps, origin, report, track_picture
+from system_models.run import maps, origin, track_picture
 from system_models.run.contact import communication_points, run
 from system_models.run.duty import Duty
 from system_models.run.fields import Fields
@@ -217,8 +218,7 @@ def test_a_run_with_fields_goes_on_from_its_rows_bit_for_bit(
 @pytest.fixture
 def no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Spare the time of drawing."""
-    monkeypatch.setattr(report, "write_overview", lambda dataset, path: path)
-    monkeypatch.setattr(track_picture, "write", lambda dataset, maps, path: path)
+    monkeypatch.setattr(files, "save", lambda sheet, path, dpi=150: path)
 
 
 @pytest.mark.long
@@ -353,33 +353,36 @@ def test_a_contact_that_was_never_set_up_has_no_fields(scene: Scene, caplog: pyt
     assert found["instant_route"].values == [0]
 
 
-def shown(figure: Figure) -> dict[str, Any]:
-    """Visible panels by their titles."""
-    return {axis.get_title(): axis for part in figure.subfigs for axis in part.axes if axis.get_visible()}
+def shown(plain: xr.Dataset, found: xr.Dataset) -> dict[str, Chart]:
+    """The charts of the picture by their titles."""
+    return {chart.title: chart for chart in track_picture.picture(plain, found).charts if chart}
 
 
 def test_the_picture_shows_pads_tracks_profiles_and_coverage(
     found: xr.Dataset, plain: xr.Dataset, tmp_path: Path, drawn: bool
 ) -> None:
-    panels = shown(track_picture.picture(plain, found))
+    panels = shown(plain, found)
     times = ("50 s", "100 s", "120 s", "200 s")
     for body in (1, 2):
         for time in times:
-            (image,) = panels[f"tribofilm of body {body}, {time}"].images
+            pad = panels[f"tribofilm of body {body}, {time}"].map
+            assert pad is not None
             values = found[f"tribofilm_map_{body}"].sel(field_time=float(time[:-2])).values
-            assert np.asarray(image.get_array()) == approx(1e9 * values)
-            assert image.get_extent()[2:] == approx([-250.0 * 33 / 32, 250.0 * 33 / 32])
-        assert panels[f"wear of body {body}, 200 s"].images[0].get_array().max() > 1.0
-        assert len(panels[f"wear of body {body} across the track"].lines) == 7 + 2
-    assert {"pressure, 200 s", "gap, 200 s", "coverage of the track", "surface of body 2: a cross-section"} < {*panels}
-    path = track_picture.write(plain, found, tmp_path / "track.png")
+            assert pad.values == approx(1e9 * values)
+            assert pad.y == approx((-250.0 * 33 / 32, 250.0 * 33 / 32))
+            assert pad.keyed == (time == times[-1])
+        wear = panels[f"wear of body {body}, 200 s"].map
+        assert wear is not None and wear.values.max() > 1.0
+        assert len(panels[f"Wear, body {body}"].lines) == 6  # of seven times; at the first nothing is worn
+    assert {"pressure, 200 s", "gap, 200 s", "Coverage of the track", "Cross-section of body 2"} < {*panels}
+    path = files.save(track_picture.picture(plain, found), tmp_path / "track.png")
     assert path.stat().st_size > (100_000 if drawn else 0)
 
 
 @pytest.mark.parametrize("count", [1, *(pytest.param(count, marks=pytest.mark.long) for count in (2, 3))])
 def test_the_picture_of_few_times_has_no_empty_panel(found: xr.Dataset, plain: xr.Dataset, count: int) -> None:
-    panels = shown(track_picture.picture(plain, found.isel(field_time=range(7 - count, 7))))
-    assert all(axis.has_data() for title, axis in panels.items() if title)
+    panels = shown(plain, found.isel(field_time=range(7 - count, 7)))
+    assert all(chart.map or chart.lines for chart in panels.values())
     assert len([title for title in panels if title.startswith("tribofilm of body 1, ")]) == count
 
 
@@ -388,9 +391,9 @@ def test_the_picture_of_a_smooth_line_has_curves(plain: xr.Dataset, tmp_path: Pa
     scene = Scene.from_toml("fzg_flank", {"film.points": "33", "film.width": "0 mm", **smooth})
     found = maps.dataset_of(scene, [200.0], [maps.taken(scene, scene.operation.point, initial_state(scene), 200.0)])
     assert found.sizes["y"] == 1
-    panels = shown(track_picture.picture(plain, found))
-    assert panels["pressure, 200 s"].lines[0].get_ydata().max() == approx(1.1, rel=0.1)
-    track_picture.write(plain, found, tmp_path / "track.png")
+    panels = shown(plain, found)
+    assert panels["pressure, 200 s"].lines[0].y.max() == approx(1100.0, rel=0.1)  # MPa
+    files.save(track_picture.picture(plain, found), tmp_path / "track.png")
     exact = solve(scene, scene.operation.point, initial_state(scene))
     assert found["pressure"].values[0] == approx(exact.pressure, rel=1e-6)
 

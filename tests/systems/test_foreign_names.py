@@ -16,6 +16,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks.models import build
+from system_models.charts import files
 from system_models.cli.main import main
 from system_models.master import CouplingError, System
 from system_models.run import cosim_report
@@ -117,7 +118,7 @@ def test_a_simulation_of_an_fmu_with_nasty_names_keeps_its_results(
 @pytest.mark.parametrize("name", ["a.$x^{$\\frac_1", "a. b\tc\n"])
 def test_names_in_pictures_are_no_formulas(name: str) -> None:
     dataset = table([name]).assign(table(["master.step_size"])).assign_attrs(title="$x^{$")
-    figure = cosim_report.overview(dataset)
+    figure = files.figure(cosim_report.overview(dataset))
     figure.draw_without_rendering()
     assert figure.axes[0].get_title("left") == f"{cosim_report.printable(name)} [m]"
 
@@ -126,7 +127,8 @@ def test_pictures_have_room_for_their_panels_beside_names_of_any_length() -> Non
     names = [f"a.{letter * 400}_{n}" for n, letter in enumerate("Wx")]
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        figure = cosim_report.overview(table(names).assign(table(["master.step_size"])).assign_attrs(title="W" * 250))
+        dataset = table(names).assign(table(["master.step_size"])).assign_attrs(title="W" * 250)
+        figure = files.figure(cosim_report.overview(dataset))
         figure.draw_without_rendering()
     assert {axis.get_title("left")[-7:] for axis in figure.axes[:2]} == {f"{name[-3:]} [m]" for name in names}
 

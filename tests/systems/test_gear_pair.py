@@ -11,6 +11,7 @@ from comparison import approx
 from numpy.typing import NDArray
 
 from contact_core.errors import SceneError
+from system_models.charts import files
 from system_models.machines import reading
 from system_models.machines.assembly import Assembly
 from system_models.machines.gear_pair import pictures as gear_pair_pictures
@@ -134,7 +135,7 @@ def test_the_report_has_a_row_for_each_stage_and_four_pictures(record: Record, t
     lines = gear_pair_report.lines(record.assembly, record.dataset)
     table = lines[2 : lines.index("")]
     assert [line.split()[0] for line in table] == ["6", "8"]  # load stages with these torques
-    written = gear_pair_report.write(record.assembly, record.dataset, tmp_path)
+    written = files.write(gear_pair_pictures.sheets(record.assembly, record.dataset), tmp_path)
     assert [path.name for path in written] == ["overview.png", "path.png", "time.png", "safety.png"]
     assert all(path.stat().st_size > (20_000 if drawn else 0) for path in written)
 
@@ -192,7 +193,7 @@ def test_starts_and_stops_wear_the_flanks_anew_each_time(tmp_path: Path) -> None
     assert np.isnan(record.friction[-1])  # standing still
     assert record.of("mesh.power_loss")[-1] == approx(0.0, abs=1.0)
     assert len(gear_pair_report.lines(record.assembly, record.dataset)) > 5
-    assert len(gear_pair_pictures.time(record).axes) == 8
+    assert len(gear_pair_pictures.sheets(record.assembly, record.dataset)["time"].charts) == 8
 
 
 @pytest.mark.long
@@ -213,7 +214,7 @@ def test_a_duty_without_load_is_told_so(tmp_path: Path) -> None:
     assembly = assembled({**CONSTANT, "torque": "0 N m", "duration": "10 s"}, stations=4)
     dataset = run(assembly, tmp_path)
     assert "no stretch" in gear_pair_report.lines(assembly, dataset)[0]
-    assert len(gear_pair_pictures.overview(Record(assembly, dataset)).axes) == 8
+    assert len(files.figure(gear_pair_pictures.sheets(assembly, dataset)["overview"]).axes) == 8
 
 
 @pytest.mark.parametrize(("name", "count", "last"), [("gear_fzg_a", 12, 534.5), ("gear_fzg_c", 7, 265.0)])

@@ -17,14 +17,14 @@ from comparison import approx
 from parsed_page import COARSE, Parsed, self_contained
 
 from contact_core.state import RangeFlag
+from system_models.charts.scale import ticks
+from system_models.charts.units import stated, unit_for
 from system_models.cli.main import main
 from system_models.explain import left_out
 from system_models.html_report import compare, errors, trust
-from system_models.html_report.chart import ticks
 from system_models.html_report.maps import encoded
 from system_models.html_report.opened import Run, open_run
 from system_models.html_report.page import page
-from system_models.html_report.shown import stated, unit_for
 from system_models.run.assumed import ATTRIBUTE as ASSUMED
 from system_models.run.assumed import stored as stored_values
 from system_models.run.causes import ATTRIBUTE

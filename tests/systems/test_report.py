@@ -8,8 +8,10 @@ import xarray as xr
 from comparison import approx
 
 from contact_core.quantities import STATED, TABLE
+from system_models.charts import files
+from system_models.charts.chart import Chart
+from system_models.charts.half_widths import with_error
 from system_models.run import report
-from system_models.run.half_widths import with_error
 from system_models.store.results import to_dataset, with_half_widths
 
 
@@ -123,33 +125,38 @@ def test_the_share_of_blocks_is_told(long_run: xr.Dataset) -> None:
     )
 
 
+def charts(run: xr.Dataset) -> dict[str, Chart]:
+    """The charts of the overview by their titles."""
+    return {chart.title: chart for chart in report.overview(run).charts if chart}
+
+
 def test_every_panel_has_a_label_and_a_legend_where_lines_must_be_told_apart(long_run: xr.Dataset) -> None:
-    axes = report.overview(long_run).axes
-    labels = [axis.get_ylabel() for axis in axes]
-    assert len(set(labels)) == 8
-    assert {"mean tribofilm thickness [nm]", "largest pressure [GPa]"} < set(labels)
-    for axis in axes:
-        assert (axis.get_legend() is None) == (len(axis.lines) == 1)
+    drawn = charts(long_run)
+    assert len(drawn) == 8
+    assert drawn["Tribofilm"].y_label.startswith("thickness [")
+    axes = files.figure(report.overview(long_run)).axes
+    for axis, chart in zip(axes, drawn.values(), strict=True):
+        assert (axis.get_legend() is None) == (len(chart.lines) == 1)
 
 
 def test_panels_draw_converted_values_against_minutes(long_run: xr.Dataset) -> None:
-    (heights,) = (axis for axis in report.overview(long_run).axes if axis.get_ylabel() == "height [nm]")
-    gap, sigma = heights.lines
-    np.testing.assert_allclose(gap.get_xdata(), np.arange(121))
-    np.testing.assert_allclose(gap.get_ydata(), 30.0 + 0.06 * np.arange(121))
-    np.testing.assert_allclose(sigma.get_ydata(), 4.0 * np.asarray(gap.get_ydata()))
+    gap, sigma = charts(long_run)["Height"].lines
+    np.testing.assert_allclose(gap.x, np.arange(121))
+    np.testing.assert_allclose(gap.y, 30.0 + 0.06 * np.arange(121))
+    np.testing.assert_allclose(sigma.y, 4.0 * gap.y)
+    (axis,) = (axis for axis in files.figure(report.overview(long_run)).axes if axis.get_title("left") == "Height")
+    np.testing.assert_array_equal(axis.lines[0].get_ydata(), gap.y)
 
 
 def test_the_composite_roughness_is_left_out_where_the_film_ratio_is_capped(long_run: xr.Dataset) -> None:
     long_run["lambda_ratio"][:] = 1000.0
-    (heights,) = (axis for axis in report.overview(long_run).axes if axis.get_ylabel() == "height [nm]")
-    assert np.isnan(np.asarray(heights.lines[1].get_ydata(), float)).all()
+    assert np.isnan(charts(long_run)["Height"].lines[1].y).all()
 
 
 def test_invalid_steps_are_shaded(long_run: xr.Dataset) -> None:
-    assert not report.overview(long_run).axes[0].patches
+    assert not files.figure(report.overview(long_run)).axes[0].patches
     long_run["valid"][7] = False
-    for axis in report.overview(long_run).axes:
+    for axis in files.figure(report.overview(long_run)).axes:
         (shade,) = axis.patches
         extent = shade.get_extents().transformed(axis.transData.inverted())
         assert extent.intervalx == approx([6.0, 7.0])
@@ -157,7 +164,7 @@ def test_invalid_steps_are_shaded(long_run: xr.Dataset) -> None:
 
 @pytest.mark.usefixtures("rendered")
 def test_the_overview_is_a_png(long_run: xr.Dataset, tmp_path: Path) -> None:
-    path = report.write_overview(long_run, tmp_path / "overview.png")
+    path = files.save(report.overview(long_run), tmp_path / "overview.png")
     assert path.read_bytes().startswith(b"\x89PNG")
     assert path.stat().st_size > 10_000
 

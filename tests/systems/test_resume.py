@@ -16,9 +16,9 @@ from fmpy.fmi1 import FMICallException
 import fmu_src.runtime.slave
 from contact_core import ContactError, OperatingPoint, Scene, StateError, advance
 from fmu_src.package.build import build
+from system_models.charts import files
 from system_models.cli.main import main
 from system_models.fmu.fmi2 import Fmi2Instance
-from system_models.run import report
 from system_models.run.contact import run
 from system_models.run.duty import Duty
 from system_models.run.origin import identity
@@ -40,7 +40,7 @@ def faltering(scene: Scene) -> Duty:
 @pytest.fixture
 def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     """Spare the time of drawing."""
-    monkeypatch.setattr(report, "write_overview", lambda dataset, path: path)
+    monkeypatch.setattr(files, "save", lambda sheet, path, dpi=150: path)
 
 
 def bits(dataset: xr.Dataset) -> dict[Any, tuple[str, bytes]]:

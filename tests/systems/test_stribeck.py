@@ -13,6 +13,7 @@ from comparison import approx
 from contact_core import ContactState, ConvergenceError, OperatingPoint, Outputs, RangeFlag, Scene, advance
 from contact_core.errors import ContactError
 from contact_core.quantities import TABLE
+from system_models.charts import files
 from system_models.cli import stribeck as command
 from system_models.cli.main import main
 from system_models.run import stribeck, stribeck_report, workers
@@ -330,23 +331,23 @@ def test_a_curve_without_a_transition_says_so(swept: xr.Dataset) -> None:
 
 
 def test_the_picture_has_four_panels_with_a_line_for_each_time(swept: xr.Dataset) -> None:
-    axes = stribeck_report.figure(swept).axes
-    assert len({axis.get_ylabel() for axis in axes}) == 4
-    for axis, name in zip(
-        axes, ("friction_coefficient", "lambda_ratio", "contact_load_ratio", "contact_area_ratio"), strict=True
-    ):
-        assert axis.get_xscale() == "log"
-        for line, values in zip(axis.lines[:2], swept[name].values, strict=True):
-            np.testing.assert_array_equal(line.get_xdata(), swept["entrainment_speed"])
-            np.testing.assert_array_equal(line.get_ydata(), values)
-    assert [text.get_text() for text in axes[0].get_legend().get_texts()][:2] == ["0", "1.2"]
+    charts = [chart for chart in stribeck_report.sheet(swept).charts if chart]
+    names = ("friction_coefficient", "lambda_ratio", "contact_load_ratio", "contact_area_ratio")
+    assert len({chart.y_label for chart in charts}) == 4
+    for chart, name in zip(charts, names, strict=True):
+        assert chart.logarithmic_x
+        for line, values in zip([line for line in chart.lines if line.dash], swept[name].values, strict=True):
+            np.testing.assert_array_equal(line.x, swept["entrainment_speed"])
+            np.testing.assert_array_equal(line.y, values)
+    assert [line.label for line in charts[0].keyed] == ["0", "1.2"]
 
 
 def test_points_that_are_not_converged_are_hollow(swept: xr.Dataset) -> None:
     flags = np.zeros(swept["range_flags"].shape, int)
     flags[1, 2] = int(RangeFlag.NOT_CONVERGED | RangeFlag.INLET_UNRESOLVED)
     flags[0, 0] = int(RangeFlag.INLET_UNRESOLVED)
-    axis = stribeck_report.figure(swept.assign(range_flags=swept["range_flags"].copy(data=flags))).axes[0]
+    changed = swept.assign(range_flags=swept["range_flags"].copy(data=flags))
+    axis = files.figure(stribeck_report.sheet(changed)).axes[0]
     hollow = [line for line in axis.lines if str(line.get_markerfacecolor()) == "white"]
     drawn = [(x, y) for line in hollow for x, y in zip(line.get_xdata(), line.get_ydata(), strict=True)]
     assert drawn == [(swept["entrainment_speed"][2], swept["friction_coefficient"][1, 2])]

@@ -5,8 +5,9 @@ import re
 import numpy as np
 from comparison import approx
 
-from system_models.html_report.chart import Chart, Line, figure
-from system_models.html_report.shown import time_unit
+from system_models.charts.chart import Chart, Line
+from system_models.charts.svg import figure
+from system_models.charts.units import time_unit
 from system_models.html_report.trust import spans
 
 PAIR = re.compile(r"([\d.]+)[ ,]([\d.]+)")

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator
+from importlib.resources import files
 
 import numpy as np
 
@@ -10,10 +11,10 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene, SelfAffine, Surface
 
 from ...flavours import Flavour
+from ...html.markup import bullets, heading, number, paragraph, table, text
 from ...variables import FIDELITY
-from . import drawings, measured
+from . import measured
 from .levels import LEVELS
-from .markup import bullets, number, paragraph, plain, table
 
 _CELSIUS = 273.15  # K
 
@@ -59,8 +60,8 @@ def data(scene: Scene, flavour: Flavour) -> Iterator[str]:
     ]
     yield table(("", "this scene"), rows)
     if scene.warnings():
-        yield "<h3>Notes on this scene</h3>"
-        yield from bullets(scene.warnings())
+        yield heading("Notes on this scene")
+        yield bullets(scene.warnings())
 
 
 def _at_level(scene: Scene, flavour: Flavour) -> str:
@@ -85,11 +86,15 @@ def _face(scene: Scene) -> Iterator[tuple[str, str]]:
         yield from LEVELS[scene.film.fidelity].size(scene)
 
 
+def _drawing(name: str) -> str:
+    return files(__package__).joinpath(f"{name}.svg").read_text("utf-8")
+
+
 def signs(scene: Scene) -> Iterator[str]:
     """Yield the section on signs and directions."""
-    yield drawings.SIGNS
+    yield _drawing("signs")
     spins = "spin" not in scene.geometry.lacks
-    yield from bullets(
+    yield bullets(
         (
             "x is the direction of entrainment. Speeds are surface speeds along x, relative to the contact.",
             "friction_force acts on body 1 along +x, the opposite force on body 2. friction_coefficient is its "
@@ -182,8 +187,7 @@ def errors(scene: Scene) -> Iterator[str]:
         "error_load_ratio is that of contact_load_ratio, absolute. " + LEVELS[scene.film.fidelity].errors
     )
     yield paragraph("Measured errors, and the command of the repository that measures them:")
-    for found in measured.ERRORS[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)]:
-        yield _measured(found)
+    yield from _measured(scene, "errors")
 
 
 def assumptions(scene: Scene) -> Iterator[str]:
@@ -205,14 +209,16 @@ def assumptions(scene: Scene) -> Iterator[str]:
         yield paragraph("The scene has no intervals.")
 
 
-def _measured(found: measured.Table) -> str:
-    title = f"<p>{plain(found.title)} (<code>{plain(found.command)}</code>):</p>"
-    return title + table(found.head, found.rows)
+def _measured(scene: Scene, kind: str) -> Iterator[str]:
+    """Yield measured errors or costs of a scene's level."""
+    for found in measured.tables(kind)[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)]:
+        yield f"<p>{text(found.title)} (<code>{text(found.command)}</code>):</p>"
+        yield table(found.head, found.rows)
 
 
 def steps(scene: Scene) -> Iterator[str]:
     """Yield the section on communication steps."""
-    yield drawings.STEPS
+    yield _drawing("steps")
     yield paragraph(
         "A communication step from t to t + h holds the inputs as set before it; the outputs are those at t + h. "
         "Between steps the outputs depend on the state alone: a new input takes effect in the next step. Coupled to "
@@ -220,4 +226,4 @@ def steps(scene: Scene) -> Iterator[str]:
         "may differ in length; any length is allowed, zero too."
     )
     yield paragraph(LEVELS[scene.film.fidelity].steps(scene))
-    yield _measured(measured.COSTS[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)])
+    yield from _measured(scene, "costs")

@@ -8,12 +8,11 @@ from contact_core.laws.equations import Equations
 from contact_core.scene import Scene
 from contact_core.scene.in_use import InUse, in_use
 
-from .markup import equation, paragraph, source, table
+from ...html.markup import equation, heading, paragraph, source, table
 
 
 def equations(scene: Scene) -> Iterator[str]:
     """Yield the equations of level, shape and laws, with sources, and the options of the scene."""
-    yield paragraph("The laws of this scene, each with its source. The table of parameters explains their symbols.")
     film = scene.film
     for shown in film.governing(scene.geometry, scene.lubricant):
         yield from _titled(shown)
@@ -21,12 +20,12 @@ def equations(scene: Scene) -> Iterator[str]:
     yield from _titled(film.friction)
     for used in in_use(scene):
         yield from _law(used)
-    yield "<h3>Options, fixed when the FMU was built</h3>"
+    yield heading("Options, fixed when the FMU was built")
     yield table(("option", "choice", "meaning"), _options(scene))
 
 
 def _titled(shown: Equations) -> Iterator[str]:
-    yield f"<h3>{shown.title}</h3>"
+    yield heading(shown.title)
     yield from _formula(shown)
 
 
@@ -39,11 +38,11 @@ def _formula(shown: Equations, note: str = "", origin: str = "") -> Iterator[str
 
 
 def _law(used: InUse) -> Iterator[str]:
-    yield f"<h3>{used.path}: {used.law.name}</h3>"
+    yield heading(f"{used.path}: {used.law.name}")
     yield from _formula(used.equations, used.notes, used.law.source)
     for option, choice, shown in used.chosen:
         if shown.lines:
-            yield f"<h3>{used.path}.{option}: {choice}</h3>"
+            yield heading(f"{used.path}.{option}: {choice}")
             yield from _formula(shown)
 
 

@@ -8,11 +8,11 @@ from contact_core.scene import Scene
 from contact_core.state import RangeFlag
 
 from ...flavours import Flavour, Version
+from ...html.markup import bullets, heading, paragraph, table
 from ...runtime.guarded import LOG_CATEGORIES
 from ...variables import FIDELITY, INITIAL_STATE, Variable
 from .. import evidence, licences
 from ..describe import variables_of
-from .markup import bullets, paragraph, table
 
 _KINDS = (("Inputs", "input"), ("Outputs", "output"), ("Parameters", "parameter"), ("Time", "independent"))
 _OK, _WARNING, _DISCARD, _ERROR = "OK", "Warning", "Discard", "Error"
@@ -111,11 +111,7 @@ def _events(flavour: Flavour) -> tuple[tuple[str, str, str], ...]:
             _REFUSED[flavour],
             "valid is false; nothing changes, the log gives the reason",
         ),
-        (
-            "a state that cannot be used",
-            _REFUSED[flavour],
-            f"{_AFTER_STATE[flavour]}, the log gives the reason",
-        ),
+        ("a state that cannot be used", _REFUSED[flavour], f"{_AFTER_STATE[flavour]}, the log gives the reason"),
         *_FAILURES[flavour],
     )
 
@@ -128,7 +124,7 @@ def variable_tables(scene: Scene, flavour: Flavour) -> Iterator[str]:
     )
     listed = variables_of(scene, flavour)
     for title, causality in _KINDS:
-        yield f"<h3>{title}</h3>"
+        yield heading(title)
         if causality == "parameter":
             yield paragraph(_OF_PARAMETERS[flavour])
         rows = (_row(v) for v in listed if v.causality == causality)
@@ -150,7 +146,7 @@ def state(flavour: Flavour, fmi: Version) -> Iterator[str]:
         "run-in surfaces; empty: fresh surfaces."
     )
     refused = "and changes nothing." if flavour == "native" else "when it is set: valid is false, nothing changes."
-    yield from bullets(
+    yield bullets(
         (
             "FMU states can be got, set, serialised and deserialised at any time. A replay agrees bit for bit, also in "
             "another instance and in another process. A state includes parameters and inputs.",
@@ -186,7 +182,7 @@ def _compilation() -> Iterator[str]:
         "This FMU is C99, generated for this contact alone: it needs neither Python nor other programs, files or "
         "processes, takes no memory after its instantiation, and answers each step in bounded time."
     )
-    yield from bullets(
+    yield bullets(
         (
             "binaries/ has the libraries of the platforms for which it was built.",
             "sources/ has everything for any other platform: contact.c, the equations of the contact; model.c, its "

@@ -7,7 +7,7 @@ from typing import Any
 from contact_core.laws.load_sharing import flattening_of, layer_height, rms_slope, sliding_ratio
 from contact_core.scene import Case, Scene
 
-from .markup import number
+from ...html.markup import number
 
 Row = tuple[str, str, str]
 

@@ -25,7 +25,7 @@ from ..assembly import Contact, Schedule
 from ..kind import Design, Kind
 from ..tables import record, scene_of
 from ..timeline import Timeline
-from . import report
+from . import pictures, report
 from .equilibrium import RingLoads
 from .geometry import RACES
 from .part import RECEIVED, SENT, BallBearing, LoadClass, contact_name
@@ -149,5 +149,5 @@ BALL_BEARING = Kind(
     main=("bearing.friction_torque", "bearing.power_loss"),
     legend=report.LEGEND,
     lines=report.lines,
-    pictures=report.write,
+    pictures=pictures.sheets,
 )

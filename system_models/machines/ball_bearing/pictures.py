@@ -1,289 +1,229 @@
 """Pictures of a run of a ball bearing: the whole at a glance, the load zone, the surfaces of all classes."""
 
 import math
-from collections.abc import Mapping
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
+from ...charts.chart import BLACK, BLUE, GREEN, GREY, NOTHING, ORANGE, PURPLE, RED, SKY, Chart, Line, Sheet, shades
+from ...charts.units import CELSIUS, time_unit
+from ...run.panels import FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR
+from ..assembly import Assembly
 from .geometry import RACES, RaceName
-from .record import CAPPED, Array, BearingRun
+from .record import CAPPED, Array, BearingRun, ContactClass
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-_RPM, _DEGREES, _CELSIUS = 30.0 / math.pi, 180.0 / math.pi, 273.15
+_RPM, _DEGREES = 30.0 / math.pi, 180.0 / math.pi
 _NM, _NMM = 1e9, 1e3  # per m, per N m
-# colours of Okabe and Ito: which the colour-blind can tell apart
-_RACE_COLOURS: dict[RaceName, str] = {"inner": "#0072B2", "outer": "#D55E00"}
-_GREEN, _PURPLE, _ORANGE, _SKY = "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
-_PART_COLOURS = {"rolling": _SKY, "sliding": _ORANGE, "spin": _PURPLE}
-_NODE_COLOURS = {"balls": "black", "inner": _RACE_COLOURS["inner"], "outer": _RACE_COLOURS["outer"], "oil": _ORANGE}
-_SKF, _PALMGREN = _GREEN, "0.3"
-_KEY: dict[str, Any] = {"framealpha": 0.8, "edgecolor": "none", "fontsize": "small"}
-_ABOVE: dict[str, Any] = {"ncols": 4, "columnspacing": 1.0, "handlelength": 1.6}
-_BODIES = ((1, "ball", "-"), (2, "ring", "--"))
+_RACE_COLOURS: dict[RaceName, str] = {"inner": BLUE, "outer": RED}
+_PART_COLOURS = {"rolling": SKY, "sliding": ORANGE, "spin": PURPLE}
+_NODE_COLOURS = {"balls": BLACK, "inner": BLUE, "outer": RED, "oil": ORANGE}
+_BODIES = (("ball", "-"), ("ring", "--"))
 _DECADES = 1e-4  # of the largest value are shown on log axes
 _LEAST = 1e-4  # nm: films and wear that are always less are none
+_Along = Callable[[RaceName], tuple[Array, Array]]  # azimuth [rad] and values of a race
 
 
-def write(run: BearingRun, folder: Path) -> list[Path]:
-    """Draw all pictures into PNG files of a folder and return their paths."""
-    figures = {"overview": overview(run), "load_zone": load_zone(run), "surfaces": surfaces(run)}
-    paths = []
-    for name, figure in figures.items():
-        paths.append(folder / f"{name}.png")
-        figure.savefig(paths[-1], dpi=150)
-    return paths
-
-
-def overview(run: BearingRun) -> "Figure":
-    """Draw loads and films around the race, torque, power, temperatures, starts, tribofilms, wear, lambda ratio."""
-    figure = _figure(run, (13.0, 11.0))
-    grid = figure.add_gridspec(3, 3)
-    _loads_around(figure.add_subplot(grid[0, 0], projection="polar"), run)
-    _films_around(figure.add_subplot(grid[0, 1]), run)
-    _torque(figure.add_subplot(grid[0, 2]), run)
-    _power(figure.add_subplot(grid[1, 0]), run)
-    _temperatures(figure.add_subplot(grid[1, 1]), run)
-    _over_speed(figure.add_subplot(grid[1, 2]), run)
-    _of_bodies(figure.add_subplot(grid[2, 0]), run, "tribofilm", "mean tribofilm [nm]")
-    _of_bodies(figure.add_subplot(grid[2, 1]), run, "wear_depth", "mean wear depth [nm]")
-    _of_contacts(figure.add_subplot(grid[2, 2]), run, "lambda_ratio", r"lambda ratio $\lambda$")
-    return figure
-
-
-def load_zone(run: BearingRun) -> "Figure":
-    """Draw load, pressure, film and lambda ratio of the balls around the races."""
-    figure = _figure(run, (11.0, 10.0))
-    places = [figure.add_subplot(2, 2, k, projection="polar") for k in range(1, 5)]
-    _loads_around(places[0], run)
-    _passages(places[1], run, "pressure", 1e-9, "Hertz's largest pressure [GPa]")
-    _balls_around(places[2], run, "h_c", _NM, "central film\nthickness $h_c$ [nm]")
-    _balls_around(places[3], run, "lambda_ratio", 1.0, r"lambda ratio $\lambda$")
-    return figure
-
-
-def surfaces(run: BearingRun) -> "Figure":
-    """Draw for each load class against time: tribofilm, wear, roughness, friction, load on solids, lambda ratio."""
-    figure = _figure(run, (13.0, 7.5))
-    axes = figure.subplots(2, 3)
-    _of_bodies(axes[0, 0], run, "tribofilm", "mean tribofilm [nm]")
-    _of_bodies(axes[0, 1], run, "wear_depth", "mean wear depth [nm]")
-    _of_bodies(axes[0, 2], run, "roughness", "roughness Rq [nm]", log=False)
-    _of_contacts(axes[1, 0], run, "friction_coefficient", "friction coefficient")
-    _of_contacts(axes[1, 1], run, "contact_load_ratio", "load on solids")
-    _of_contacts(axes[1, 2], run, "lambda_ratio", r"lambda ratio $\lambda$")
-    return figure
-
-
-def _figure(run: BearingRun, size: tuple[float, float]) -> "Figure":
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=size, layout="constrained")
-    figure.suptitle(run.dataset.attrs.get("title", run.assembly.description), fontsize="medium", parse_math=False)
-    return figure
+def sheets(assembly: Assembly, dataset: xr.Dataset) -> dict[str, Sheet]:
+    """Return the pictures by name: the run at a glance, the load zone, the surfaces of all load classes."""
+    run = BearingRun(assembly, dataset)
+    title = dataset.attrs.get("title", assembly.description)
+    layers = [_of_bodies(run, "tribofilm", TRIBOFILM.title), _of_bodies(run, "wear_depth", WEAR.title)]
+    ratio = _of_contacts(run, "lambda_ratio", LAMBDA.title)
+    overview = [
+        _loads_around(run), _films_around(run), _torque(run), _power(run), _temperatures(run), _over_speed(run),
+        *layers, ratio,
+    ]  # fmt: skip
+    zone = [
+        _loads_around(run),
+        _around("Hertz's largest pressure [GPa]", _passages(run, "pressure", 1e-9)),
+        _around(f"{FILM.title} h_c [nm]", _balls(run, "h_c", _NM)),
+        _around(LAMBDA.title, _balls(run, "lambda_ratio", 1.0)),
+    ]
+    surfaces = [
+        *layers, _of_bodies(run, "roughness", ROUGHNESS.title, log=False),
+        _of_contacts(run, "friction_coefficient", FRICTION.title),
+        _of_contacts(run, "contact_load_ratio", "Load on solids"), ratio,
+    ]  # fmt: skip
+    return {
+        "overview": Sheet(overview, title, 3, 4.5, 3.5),
+        "load_zone": Sheet(zone, title, 2, 5.5, 4.8),
+        "surfaces": Sheet(surfaces, title, 3, 4.5, 3.5),
+    }
 
 
 # around the race, at the last moment in which the shaft turns
 
 
-def _polar(axes: Any, title: str) -> None:
-    """Prepare polar axes with the load pointing down."""
-    axes.set_theta_zero_location("S")
-    axes.set_title(title, fontsize="medium")
-    axes.tick_params(labelsize="small")
-    axes.set_rlabel_position(157.5)
-    axes.set_ylim(bottom=0.0)
+def _around(title: str, along: _Along) -> Chart:
+    """Return values along the orbit of a ball on both races, the load pointing down."""
+    lines = [
+        Line(f"{race} race", *along(race), colour=_RACE_COLOURS[race], style=style)
+        for race, style in zip(RACES, ("-", "--"), strict=True)
+    ]
+    return Chart(title, "", "", lines, polar=True)
 
 
-def _loads_around(axes: Any, run: BearingRun) -> None:
-    _passages(axes, run, "load", 1.0, "")
-    for race, marker in zip(RACES, ("o", "x"), strict=True):
-        azimuth, load = run.balls(race, run.last)
-        axes.plot(azimuth, load, marker, color=_RACE_COLOURS[race], fillstyle="none", markersize=7, clip_on=False)
-    _polar(axes, f"load of the balls [N] at {run.speed[run.last] * _RPM:.0f} rpm")
+def _passages(run: BearingRun, name: str, factor: float) -> _Along:
+    """Return a quantity of a ball along its orbit, which is closed."""
 
-
-def _passages(axes: Any, run: BearingRun, name: str, factor: float, title: str) -> None:
-    """Draw a quantity of a ball along its orbit."""
-    for race, style in zip(RACES, ("-", "--"), strict=True):
+    def along(race: RaceName) -> tuple[Array, Array]:
         way = run.passage(race, run.last)
-        azimuth, values = np.append(way.azimuth, way.azimuth[0] + 2.0 * math.pi), factor * getattr(way, name)
-        axes.plot(azimuth, np.append(values, values[0]), style, color=_RACE_COLOURS[race], label=f"{race} race")
-    _polar(axes, title)
-    axes.legend(**_KEY, loc="lower left", bbox_to_anchor=(-0.12, -0.1))
+        values = factor * getattr(way, name)
+        return np.append(way.azimuth, way.azimuth[0] + 2.0 * math.pi), np.append(values, values[0])
+
+    return along
 
 
-def _balls_around(axes: Any, run: BearingRun, name: str, factor: float, title: str) -> None:
-    """Draw an output of the contacts along a ball's orbit; nothing where the ball has no load."""
-    for race, style in zip(RACES, ("-", "--"), strict=True):
+def _balls(run: BearingRun, name: str, factor: float) -> _Along:
+    """Return an output of the contacts along a ball's orbit; nothing where the ball has no load."""
+
+    def along(race: RaceName) -> tuple[Array, Array]:
         way = run.passage(race, run.last)
-        values = factor * run.at_load(race, name, run.last, way.load)
-        axes.plot(way.azimuth, values, style, color=_RACE_COLOURS[race], label=f"{race} race")
-    _polar(axes, title)
+        return way.azimuth, factor * run.at_load(race, name, run.last, way.load)
+
+    return along
 
 
-def _films_around(axes: "Axes", run: BearingRun) -> None:
-    """Draw the central film thickness of a ball along its orbit; the lambda ratio is in proportion to it."""
-    for race in RACES:
-        way = run.passage(race, run.last)
-        gap = _NM * run.at_load(race, "h_c", run.last, way.load)
-        axes.plot(way.azimuth * _DEGREES, gap, color=_RACE_COLOURS[race], label=f"{race} race")
-    axes.set(xlabel="azimuth from the load [deg]", xticks=range(-180, 181, 90))
-    axes.set_ylabel("central film\nthickness $h_c$ [nm]")
-    axes.set_ylim(bottom=0.0)
-    _plain(axes)
+def _loads_around(run: BearingRun) -> Chart:
+    title = f"load of the balls [N] at {run.speed[run.last] * _RPM:.0f} rpm"
+    drawn = _around(title, _passages(run, "load", 1.0))
+    balls = [
+        Line("", *run.balls(race, run.last), colour=_RACE_COLOURS[race], style=mark)
+        for race, mark in zip(RACES, ("oh", "x"), strict=True)
+    ]
+    return replace(drawn, lines=[*drawn.lines, *balls])
+
+
+def _films_around(run: BearingRun) -> Chart:
+    """Return the central film thickness of a ball along its orbit; the lambda ratio is in proportion to it."""
+    drawn = _around(FILM.title, _balls(run, "h_c", _NM))
+    lines = [replace(line, x=line.x * _DEGREES, style="-") for line in drawn.lines]
+    names = {float(angle): f"{angle}" for angle in range(-180, 181, 90)}
+    label = "azimuth from the load [deg]"
+    return Chart(FILM.title, label, "h_c [nm]", lines, x_range=(-180.0, 180.0), x_names=names)
 
 
 # against time
 
 
-def _clock(run: BearingRun) -> tuple[Array, str]:
-    """Return times in the unit that people would take, and that unit."""
-    for unit, seconds in (("h", 3600.0), ("min", 60.0)):
-        if run.time[-1] >= 3.0 * seconds:
-            return run.time / seconds, unit
-    return run.time, "s"
-
-
-def _timed(axes: "Axes", run: BearingRun, label: str) -> None:
-    time, unit = _clock(run)
-    axes.set(xlabel=f"time [{unit}]", ylabel=label, xlim=(time[0], time[-1]))
-    _plain(axes)
-
-
-def _plain(axes: "Axes") -> None:
-    axes.spines[["top", "right"]].set_visible(False)
-    if axes.get_legend_handles_labels()[1]:
-        _legend(axes)
-
-
-def _legend(axes: "Axes", **more: Any) -> None:
-    """Draw the legend above the axes, where it covers no line."""
-    axes.legend(**_KEY, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2, **_ABOVE | more)
+def _timed(run: BearingRun, title: str, label: str, lines: list[Line], **more: object) -> Chart:
+    """Return lines whose x is a time [s] against time as people read it."""
+    clock = time_unit(float(run.time[-1]))
+    read = [replace(line, x=clock.of(line.x)) for line in lines]
+    return replace(Chart(title, f"time {clock.label}", label, read), **more)  # type: ignore[arg-type]
 
 
 def _total(parts: Mapping[str, Array]) -> Array:
     return np.asarray(sum(parts.values()))
 
 
-def _torque(axes: "Axes", run: BearingRun) -> None:
-    """Draw the causes of the torque as areas, the textbooks as lines."""
-    time, _ = _clock(run)
-    below = np.zeros(time.size)
+def _torque(run: BearingRun) -> Chart:
+    """Return the causes of the torque as areas, the textbooks as lines."""
+    lines, below = [], np.zeros(run.time.size)
     for name, part in run.torque.items():
+        upper = below + _NMM * part
         if np.nanmax(part, initial=0.0) > 0.0:
-            axes.fill_between(time, _NMM * below, _NMM * (below + part), color=_PART_COLOURS[name], label=name, lw=0.0)
-        below = below + part
-    axes.plot(time, _NMM * below, color="black", linewidth=1.0)
-    axes.plot(time, _NMM * _total(run.skf), "--", color=_SKF, linewidth=1.2, label="SKF")
-    axes.plot(time, _NMM * _total(run.palmgren), ":", color=_PALMGREN, linewidth=1.4, label="Palmgren")
-    axes.set_ylim(bottom=0.0)
-    _timed(axes, run, "friction torque [N mm]")
+            lines.append(Line(name, run.time, upper, below=below, colour=_PART_COLOURS[name]))
+        below = upper
+    lines.append(Line("", run.time, below, colour=BLACK))
+    lines += _textbooks(run, run.time, slice(None))
+    return _timed(run, "Friction torque", "torque [N mm]", lines)
 
 
-def _power(axes: "Axes", run: BearingRun) -> None:
-    time, _ = _clock(run)
-    axes.plot(time, run.of("bearing.power_loss"), color="black", linewidth=1.2, label="power loss")
-    axes.plot(time, run.of("housing.heat_to_ambient"), "--", color=_GREEN, linewidth=1.2, label="to the surroundings")
-    axes.set_ylim(bottom=0.0)
-    _timed(axes, run, "power [W]")
+def _textbooks(run: BearingRun, x: Array, rows: Any) -> list[Line]:
+    return [
+        Line(name, x, _NMM * _total(parts)[rows], colour=colour, style=style)
+        for name, parts, colour, style in (("SKF", run.skf, GREEN, "--"), ("Palmgren", run.palmgren, "#4d4d4d", ":"))
+    ]
 
 
-def _temperatures(axes: "Axes", run: BearingRun) -> None:
-    time, _ = _clock(run)
-    for node, colour in _NODE_COLOURS.items():
-        axes.plot(time, run.of(f"housing.temperature_{node}") - _CELSIUS, color=colour, linewidth=1.2, label=node)
-    _timed(axes, run, "temperature [degC]")
+def _power(run: BearingRun) -> Chart:
+    lines = [
+        Line("power loss", run.time, run.of("bearing.power_loss"), colour=BLACK),
+        Line("to the surroundings", run.time, run.of("housing.heat_to_ambient"), colour=GREEN, style="--"),
+    ]
+    return _timed(run, "Heat", "power [W]", lines)
 
 
-def _over_speed(axes: "Axes", run: BearingRun) -> None:
-    """Draw the torque over speed in each start but the first, unless it is the only one; textbooks for the last."""
-    from matplotlib import colormaps
-    from matplotlib.ticker import LogLocator, NullFormatter
+def _temperatures(run: BearingRun) -> Chart:
+    lines = [
+        Line(node, run.time, run.of(f"housing.temperature_{node}") - CELSIUS, colour=colour)
+        for node, colour in _NODE_COLOURS.items()
+    ]
+    return _timed(run, "Temperatures", "temperature [°C]", lines, from_zero=False)
 
+
+def _over_speed(run: BearingRun) -> Chart | None:
+    """Return the torque over speed in each start but the first, unless it is the only one; textbooks for the last."""
     starts = run.starts
     if not starts:
-        axes.set_axis_off()
-        return
+        return None
     torque, speed = _NMM * np.abs(run.of("bearing.friction_torque")), np.abs(run.speed) * _RPM
     first, last = min(1, len(starts) - 1), len(starts) - 1  # the motor may be at its speed from the beginning
+    lines, colours = [], shades(len(starts), "viridis_r", 0.15, 1.0)
     for k, rows in enumerate(starts[first:], first):
         turning = rows[run.runs[rows]]
-        shade = colormaps["viridis_r"](0.15 + 0.85 * k / max(last, 1))
-        label = f"start {k + 1}" if k in (first, last) else None
-        axes.plot(speed[turning], torque[turning], color=shade, linewidth=1.2, label=label, marker=".", markersize=3)
+        label = f"start {k + 1}" if k in (first, last) else ""
+        lines.append(Line(label, speed[turning], torque[turning], colour=colours[k], style=".-"))
     turning = starts[-1][run.runs[starts[-1]]]
-    for name, parts, style, colour in (
-        ("SKF", run.skf, "--", _SKF),
-        ("Palmgren", run.palmgren, ":", _PALMGREN),
-    ):
-        axes.plot(speed[turning], _NMM * _total(parts)[turning], style, color=colour, linewidth=1.2, label=name)
-    axes.set(xscale="log", yscale="log", xlabel="speed [rpm]", ylabel="friction torque [N mm]")
-    for axis in (axes.xaxis, axes.yaxis):
-        low, high = axis.get_view_interval()
-        axis.set_major_locator(LogLocator(subs=(1.0,) if high > 100.0 * low else (1.0, 2.0, 5.0)))
-        axis.set_major_formatter(lambda value, _: f"{value:g}")
-        axis.set_minor_formatter(NullFormatter())
-    _plain(axes)
+    lines += _textbooks(run, speed[turning], turning)
+    title = "Friction torque in starts"
+    return Chart(title, "speed [rpm]", "torque [N mm]", lines, logarithmic=True, logarithmic_x=True)
 
 
-def _shade(level: int, levels: int) -> float:
-    """Return the opacity of a class: the heaviest is the darkest."""
-    return 0.3 + 0.7 * level / levels
-
-
-def _of_bodies(axes: "Axes", run: BearingRun, name: str, label: str, log: bool = True) -> None:
-    """Draw a length of balls and rings in all load classes."""
-    time, _ = _clock(run)
-    largest = 0.0
+def _classes(run: BearingRun) -> Iterator[tuple[ContactClass, float]]:
+    """Yield the load classes with the opacity of each: the heaviest is the darkest."""
     for which in run.carrying:
-        for body, _, style in _BODIES:
-            values = _NM * run.solved(which, f"{name}_{body}")
-            largest = max(largest, float(values.max()))
-            shade = _shade(which.level, run.bearing.levels)
-            axes.plot(time, values, style, color=_RACE_COLOURS[which.race], alpha=shade, linewidth=1.2)
+        yield which, 0.3 + 0.7 * which.level / run.bearing.levels
+
+
+def _of_bodies(run: BearingRun, name: str, title: str, log: bool = True) -> Chart:
+    """Return a length of balls and rings in all load classes."""
+    lines = [
+        Line(
+            "", run.time, _NM * run.solved(which, f"{name}_{body}"), colour=_RACE_COLOURS[which.race], style=style,
+            faint=faint,
+        )
+        for which, faint in _classes(run)
+        for body, (_, style) in enumerate(_BODIES, 1)
+    ]  # fmt: skip
+    largest = max((float(line.y.max()) for line in lines), default=0.0)
+    lines += _key(bodies=True)
+    more: dict[str, object] = {"key": _meaning(run)}
     if log and largest < _LEAST:
-        axes.text(0.5, 0.5, f"none above {_LEAST:g} nm", transform=axes.transAxes, ha="center", color="0.4")
-        axes.set_ylim(0.0, 1.0)
-        axes.set_yticks([])
+        middle = 0.5 * float(time_unit(float(run.time[-1])).of(run.time[-1]))
+        lines = [replace(line, y=np.full(len(line.x), np.nan)) for line in lines]
+        more |= {"y_range": (0.0, 1.0), "notes": [(0.3 * middle, 0.5, f"none above {_LEAST:g} nm")]}
     elif log:
-        axes.set_yscale("log")
-        axes.set_ylim(_DECADES * largest, 2.0 * largest)
-    else:
-        axes.set_ylim(bottom=0.0)
-    _timed(axes, run, label)
-    _key(axes, run, bodies=True)
+        more |= {"logarithmic": True, "y_range": (_DECADES * largest, 2.0 * largest)}
+    return _timed(run, title, "mean [nm]" if log else "Rq [nm]", lines, **more)
 
 
-def _of_contacts(axes: "Axes", run: BearingRun, name: str, label: str) -> None:
-    """Draw an output of the contacts of all load classes, where the shaft turns and they are loaded."""
-    time, _ = _clock(run)
-    least, largest = math.inf, 0.0
-    for which in run.carrying:
+def _of_contacts(run: BearingRun, name: str, title: str) -> Chart:
+    """Return an output of the contacts of all load classes, where the shaft turns and they are loaded."""
+    lines = []
+    for which, faint in _classes(run):
         values = np.where(run.runs & run.loaded(which), run.solved(which, name), np.nan)
         values[values >= CAPPED] = np.nan
-        least = min(least, float(np.nanmin(values, initial=math.inf)))
-        largest = max(largest, float(np.nanmax(values, initial=0.0)))
-        shade = _shade(which.level, run.bearing.levels)
-        axes.plot(time, values, color=_RACE_COLOURS[which.race], alpha=shade, linewidth=1.2)
+        lines.append(Line("", run.time, values, colour=_RACE_COLOURS[which.race], faint=faint))
+    known = np.concatenate([line.y for line in lines] or [NOTHING])
+    least, largest = float(np.nanmin(known, initial=math.inf)), float(np.nanmax(known, initial=0.0))
+    more: dict[str, object] = {"key": _meaning(run)}
     if largest > 0.0:
-        axes.set_yscale("log")
-        axes.set_ylim(max(0.7 * least, _DECADES * largest), 1.4 * largest)
-    _timed(axes, run, label)
-    _key(axes, run, bodies=False)
+        more |= {"logarithmic": True, "y_range": (max(0.7 * least, _DECADES * largest), 1.4 * largest)}
+    return _timed(run, title, "[–]", [*lines, *_key(bodies=False)], **more)
 
 
-def _key(axes: "Axes", run: BearingRun, bodies: bool) -> None:
-    """Draw the key: colours are races, dashes rings; darker is heavier."""
-    from matplotlib.lines import Line2D
+def _key(bodies: bool) -> Iterator[Line]:
+    """Yield the entries of the key: colours are races, dashes rings."""
+    for race in RACES:
+        yield Line(race, NOTHING, NOTHING, colour=_RACE_COLOURS[race])
+    for name, style in _BODIES if bodies else ():
+        yield Line(name, NOTHING, NOTHING, colour=GREY, style=style)
 
-    entries: list[tuple[str, Any]] = [(race, {"color": _RACE_COLOURS[race]}) for race in RACES]
-    if bodies:
-        entries += [(name, {"color": "0.3", "linestyle": style}) for _, name, style in _BODIES]
-    handles = [Line2D([], [], label=name, **style) for name, style in entries]
-    title = "darker: more load" if run.bearing.levels > 1 else None
-    _legend(axes, handles=handles, title=title, title_fontsize="small", alignment="left")
+
+def _meaning(run: BearingRun) -> str:
+    return "darker: more load" if run.bearing.levels > 1 else ""

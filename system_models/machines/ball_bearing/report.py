@@ -1,19 +1,17 @@
 """The report of a bearing's run: its contacts, torque beside SKF's and Palmgren's, heat and motion."""
 
 import math
-from pathlib import Path
 
 import xarray as xr
 
+from ...charts.units import CELSIUS
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
-from . import pictures as ball_bearing_pictures
 from . import rating
 from .lives import RatedRun
 from .record import CAPPED, FEWEST, Array, BearingRun
 
 _RPM = 30.0 / math.pi
-_CELSIUS = 273.15
 _NM, _NMM = 1e9, 1e3  # per m, per N m
 _NOTHING = 1e-3  # nm: less of a film or wear is none
 _UNLOADED = 0.5  # N: less is printed as none, and its film says nothing
@@ -36,18 +34,13 @@ LEGEND = {
 _SOLIDS, _LAYERS = "contact_load_ratio", ("tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2")
 
 
-def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Write the pictures and return their paths, `overview.png` first."""
-    return ball_bearing_pictures.write(BearingRun(assembly, dataset), folder)
-
-
 def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     """Return contacts, torque, heat and motion, at the last moment in which the shaft turns."""
     run = BearingRun(assembly, dataset)
     row = run.last
     return [
         f"At {run.time[row]:g} s: {run.speed[row] * _RPM:.0f} rpm, {run.radial[row]:g} N radial, "
-        f"{run.axial[row]:g} N axial, oil at {run.of('housing.temperature_oil')[row] - _CELSIUS:.1f} degC.",
+        f"{run.axial[row]:g} N axial, oil at {run.of('housing.temperature_oil')[row] - CELSIUS:.1f} degC.",
         "",
         *_contacts(run, row),
         "",
@@ -186,7 +179,7 @@ def _rated_by(rated: RatedRun, row: int) -> list[str]:
         f"C_r = {rated_with}, C_u = {1e-3 * rated.fatigue_load_limit:.2f} kN, contamination e_C = "
         f"{rated.given.contamination:g}. lambda = {rated.film_ratio[row]:.3g}: our h_c over the undeformed roughness "
         "of the loaded class that has least. Stress integral: L10r of smooth contacts with our friction, no a_ISO. "
-        f"The run takes {rated.consumed(rated.reference):.2g} of L10r.",
+        f"The run takes {rated.consumed(rated.reference):.2g} of L10r."
     ]
     for kappa, name in ((rated.kappa_of_viscosity, "by viscosity"), (rated.kappa_of_film, "by lambda")):
         below = (kappa < rating.LEAST_KAPPA) & rated.run.runs

@@ -97,5 +97,5 @@ BALL_ON_DISC = Kind(
     main=("contact.friction_coefficient", "contact.power_loss"),
     legend=report.LEGEND,
     lines=report.lines,
-    pictures=report.write,
+    pictures=report.pictures,
 )

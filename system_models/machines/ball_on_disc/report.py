@@ -2,42 +2,37 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ...charts.chart import BLACK, BLUE, GREEN, GREY, RED, Chart, Line, Sheet, shades, spans_of
+from ...charts.half_widths import Column
+from ...charts.units import CELSIUS, Unit, time_unit
 from ...run.cosim_report import aligned
-from ...run.half_widths import cell
-from ...store.results import ERROR
+from ...run.panels import FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR, chart
+from ...store.results import half_width
 from ..assembly import Assembly
 from ..report import heat_stored
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _SHARES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0)  # of the run: running-in is early
 _LEAST = 4  # speeds of a curve
 _SAME = 1e-9  # relative, of times and slide-to-roll ratios
-_ZERO = 273.15  # K, of degC
 
-# heading, unit people read, variable, factor from SI, digits
 _COLUMNS = (
-    ("friction", "", "contact.friction_coefficient", 1.0, 4),
-    ("h_c", "nm", "contact.h_c", 1e9, 1),
-    ("lambda", "", "contact.lambda_ratio", 1.0, 3),
-    ("tribofilm 1", "nm", "contact.tribofilm_1", 1e9, 1),
-    ("tribofilm 2", "nm", "contact.tribofilm_2", 1e9, 1),
-    ("wear 1", "nm", "contact.wear_depth_1", 1e9, 1),
-    ("wear 2", "nm", "contact.wear_depth_2", 1e9, 1),
-    ("rough 1", "nm", "contact.roughness_1", 1e9, 1),
-    ("rough 2", "nm", "contact.roughness_2", 1e9, 1),
-    ("loss", "W", "contact.power_loss", 1.0, 3),
+    Column("friction", "", "contact.friction_coefficient", 1.0, 4),
+    Column("h_c", "nm", "contact.h_c", 1e9, 1),
+    Column("lambda", "", "contact.lambda_ratio", 1.0, 3),
+    Column("tribofilm 1", "nm", "contact.tribofilm_1", 1e9, 1),
+    Column("tribofilm 2", "nm", "contact.tribofilm_2", 1e9, 1),
+    Column("wear 1", "nm", "contact.wear_depth_1", 1e9, 1),
+    Column("wear 2", "nm", "contact.wear_depth_2", 1e9, 1),
+    Column("rough 1", "nm", "contact.roughness_1", 1e9, 1),
+    Column("rough 2", "nm", "contact.roughness_2", 1e9, 1),
+    Column("loss", "W", "contact.power_loss", 1.0, 3),
 )
 
 LEGEND = {
@@ -48,23 +43,7 @@ LEGEND = {
     "loss": "heat of friction",
     "+-": "error (95 %)",
 }
-_BLUE, _RED, _GREEN, _BLACK = "#0072B2", "#D55E00", "#009E73", "#000000"  # of Okabe and Ito
-_Line = tuple[str, str, str]  # variable, legend, colour
-
-
-def _bodies(name: str) -> tuple[_Line, _Line]:
-    return (f"contact.{name}_1", "ball", _BLUE), (f"contact.{name}_2", "disc", _RED)
-
-
-# label, factor from SI, lines
-_PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
-    ("friction coefficient", 1.0, (("contact.friction_coefficient", "", _BLACK),)),
-    ("mean tribofilm [nm]", 1e9, _bodies("tribofilm")),
-    ("central film\nthickness $h_c$ [nm]", 1e9, (("contact.h_c", "", _BLACK),)),
-    ("mean wear depth [nm]", 1e9, _bodies("wear_depth")),
-    (r"lambda ratio $\lambda$", 1.0, (("contact.lambda_ratio", "", _BLACK),)),
-    ("roughness Rq [nm]", 1e9, _bodies("roughness")),
-)
+_PANELS = (FRICTION, TRIBOFILM, FILM, WEAR, LAMBDA, ROUGHNESS)
 
 
 @dataclass(frozen=True)
@@ -154,27 +133,14 @@ def _table(dataset: xr.Dataset, found: list[Sweep]) -> list[str]:
     times, usable = dataset["time"].values, np.flatnonzero(_rubbing(dataset, found))
     wanted = times[usable[0]] + np.array(_SHARES) * (times[usable[-1]] - times[usable[0]])
     rows = sorted({int(usable[np.abs(times[usable] - time).argmin()]) for time in wanted})
-    heads = [
-        ["time", *(heading for heading, *_ in _COLUMNS), "oil"],
-        ["min", *(unit for _, unit, *_ in _COLUMNS), "degC"],
-    ]
-    body = [
-        [
-            f"{times[row] / 60.0:.2f}",
-            *(_told(dataset, name, row, factor, digits) for _, _, name, factor, digits in _COLUMNS),
-            f"{dataset['bath.temperature_oil'].values[row] - _ZERO:.2f}",
-        ]
-        for row in rows
-    ]
-    return aligned([*heads, *body], 0)
-
-
-def _told(dataset: xr.Dataset, name: str, row: int, factor: float, digits: int) -> str:
-    """Return a value as text, with the half width of its error where one is stated."""
-    value, half = factor * float(dataset[name].values[row]), dataset.variables.get(f"{name}{ERROR}")
-    if half is None:
-        return f"{value:.{digits}f}"
-    return cell(name.rpartition(".")[2], value, factor * float(half.values[row]), digits)
+    columns = [["time", "min", *(f"{time / 60.0:.2f}" for time in times[rows])]]
+    for each in _COLUMNS:
+        half = half_width(dataset, each.name)
+        cells = each.cells(dataset[each.name].values[rows], None if half is None else half[rows])
+        columns.append([each.heading, each.unit, *cells])
+    oil = dataset["bath.temperature_oil"].values[rows] - CELSIUS
+    columns.append(["oil", "degC", *(f"{value:.2f}" for value in oil)])
+    return aligned([list(row) for row in zip(*columns, strict=True)], 0)
 
 
 def _curves(dataset: xr.Dataset, found: list[Sweep]) -> Iterator[str]:
@@ -210,109 +176,60 @@ def _energy(assembly: Assembly, dataset: xr.Dataset) -> Iterator[str]:
     )
 
 
-def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Draw overview.png into the folder."""
-    path = folder / "overview.png"
-    overview(assembly, dataset).savefig(path, dpi=150)
-    return [path]
+def pictures(assembly: Assembly, dataset: xr.Dataset) -> dict[str, Sheet]:
+    """Return the pictures by name."""
+    return {"overview": overview(assembly, dataset)}
 
 
-def overview(assembly: Assembly, dataset: xr.Dataset) -> "Figure":
+def overview(assembly: Assembly, dataset: xr.Dataset) -> Sheet:
     """Return the run against time with its sweeps shaded, and the Stribeck curves above; invalid rows are darker."""
-    from matplotlib.figure import Figure
-
-    found = sweeps(assembly, dataset)
-    rows, above = len(_PANELS) // 2 + 1, 1 if found else 0
-    figure = Figure(figsize=(10.0, 2.2 * rows + 3.6 * above + 0.5), layout="constrained")
-    grid = figure.add_gridspec(rows + above, 2, height_ratios=[1.7] * above + [1.0] * rows)
-    if found:
-        _draw_curves([figure.add_subplot(grid[0, column]) for column in (0, 1)], dataset, found)
-    axes: list[Axes] = []
-    for n in range(2 * rows):
-        axes.append(figure.add_subplot(grid[n // 2 + above, n % 2], sharex=axes[0] if axes else None))
-    for axis, (label, factor, drawn) in zip(axes, _PANELS, strict=False):
-        for name, legend, colour in drawn:
-            values = factor * dataset[name].values
-            _line(axis, dataset, values, legend, colour)
-            if f"{name}{ERROR}" in dataset.coords:
-                half, minutes = factor * dataset[f"{name}{ERROR}"].values, dataset["time"].values / 60.0
-                axis.fill_between(minutes, values - half, values + half, color=colour, alpha=0.2, linewidth=0.0)
-        axis.set_ylabel(label)
-        axis.set_ylim(bottom=0.0)
-    _draw_temperatures(axes[-2], dataset)
-    _draw_speeds(axes[-1], dataset)
-    for axis in axes:
-        _finish(axis, dataset, found)
-    for axis in axes[:-2]:
-        axis.tick_params(labelbottom=False)
-    for axis in axes[-2:]:
-        axis.set_xlabel("time [min]")
-    figure.align_ylabels()
-    figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium", parse_math=False)
-    return figure
+    found, time = sweeps(assembly, dataset), dataset["time"].values
+    clock, invalid = time_unit(float(time[-1])), spans_of(time, ~dataset["contact.valid"].values.astype(bool))
+    ends = [(sweep.holds[0].start, sweep.holds[-1].end) for sweep in found]
+    shaded = [(float(clock.of(start)), float(clock.of(end))) for start, end in ends]
+    charts = []
+    for panel in _PANELS:
+        named = panel._replace(labels=("ball", "disc")[: len(panel.quantities)])
+        charts.append(chart(dataset, named, [f"contact.{name}" for name in panel.quantities], invalid))
+    charts += [_temperatures(dataset, clock), _speeds(dataset, clock)]
+    charts = [replace(each, shaded=shaded, dark=charts[0].dark) for each in charts]
+    above = list(_draw_curves(dataset, found)) if found else []
+    heights = [3.8] * (len(above) // 2) + [2.3] * (len(charts) // 2)
+    return Sheet([*above, *charts], dataset.attrs.get("title", ""), heights=heights)
 
 
-def _line(axis: "Axes", dataset: xr.Dataset, values: NDArray[np.float64], legend: str, colour: str) -> None:
-    axis.plot(dataset["time"].values / 60.0, values, color=colour, linewidth=1.2, label=legend)
-
-
-def _draw_temperatures(axis: "Axes", dataset: xr.Dataset) -> None:
+def _temperatures(dataset: xr.Dataset, clock: Unit) -> Chart:
     names = [str(name) for name in dataset.data_vars if str(name).startswith("bath.temperature_")]
-    for name, colour in zip(names, (_BLACK, _BLUE, _RED, _GREEN), strict=False):
-        _line(axis, dataset, dataset[name].values - _ZERO, name.removeprefix("bath.temperature_"), colour)
-    axis.set_ylabel("temperature [°C]")
+    lines = [
+        Line(
+            name.removeprefix("bath.temperature_"), clock.of(dataset["time"].values), dataset[name].values - CELSIUS,
+            colour=colour,
+        )
+        for name, colour in zip(names, (BLACK, BLUE, RED, GREEN), strict=False)
+    ]  # fmt: skip
+    return Chart("Temperatures", f"time {clock.label}", "temperature [°C]", lines, from_zero=False)
 
 
-def _draw_speeds(axis: "Axes", dataset: xr.Dataset) -> None:
-    """Draw speeds on a logarithmic scale, the load on the right."""
+def _speeds(dataset: xr.Dataset, clock: Unit) -> Chart:
+    """Return speeds on a logarithmic scale, the load on the right."""
     first, second = dataset["ball.surface_speed"].values, dataset["disc.surface_speed"].values
-    _line(axis, dataset, 0.5 * np.abs(first + second), "entrainment", _BLUE)
-    _line(axis, dataset, np.abs(first - second), "sliding", _RED)
-    axis.set_yscale("log")
-    axis.set_ylabel("speed [m/s]")
-    right = axis.twinx()
-    _line(right, dataset, dataset["arm.load"].values, "", "0.5")
-    right.set_ylim(0.0, 1.25 * max(float(dataset["arm.load"].max()), 1e-3))
-    right.set_ylabel("load [N]", color="0.4")
-    right.tick_params(colors="0.4")
-    right.spines["top"].set_visible(False)
+    time = clock.of(dataset["time"].values)
+    lines = [
+        Line("entrainment", time, 0.5 * np.abs(first + second)),
+        Line("sliding", time, np.abs(first - second), place=1),
+        Line("load", time, dataset["arm.load"].values, colour=GREY, right=True),
+    ]
+    return Chart("Speeds", f"time {clock.label}", "speed [m/s]", lines, logarithmic=True, right_label="load [N]")
 
 
-def _finish(axis: "Axes", dataset: xr.Dataset, found: list[Sweep]) -> None:
-    """Draw legend, limits, sweeps in light and invalid rows in dark grey."""
-    minutes = dataset["time"].values / 60.0
-    for sweep in found:
-        axis.axvspan(sweep.holds[0].start / 60.0, sweep.holds[-1].end / 60.0, color="0.92", linewidth=0.0, zorder=0)
-    for start, end, valid in zip(minutes[:-1], minutes[1:], dataset["contact.valid"].values[1:], strict=True):
-        if not valid:
-            axis.axvspan(start, end, color="0.7", linewidth=0.0, zorder=0)
-    if len(axis.lines) > 1:
-        axis.legend(frameon=False, fontsize="small", ncols=2, loc="lower right", bbox_to_anchor=(1.0, 0.97))
-    axis.set_xlim(minutes[0], minutes[-1])
-    axis.spines["top"].set_visible(False)
-    axis.spines["right"].set_visible(False)
-
-
-def _draw_curves(axes: "list[Axes]", dataset: xr.Dataset, found: list[Sweep]) -> None:
-    """Draw friction and lambda ratio over speed, by rubbing time."""
-    from matplotlib import colormaps
-
-    colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(found)))
-    rows = (
-        ("contact.friction_coefficient", "friction coefficient"),
-        ("contact.lambda_ratio", r"lambda ratio $\lambda$"),
-    )
-    for axis, (name, label) in zip(axes, rows, strict=True):
-        for sweep, colour in zip(found, colours, strict=True):
-            speeds, values = [hold.entrainment_speed for hold in sweep.holds], dataset[name].values[list(sweep.rows)]
-            axis.plot(
-                speeds, values, "o-", color=colour, markersize=3.5, linewidth=1.4, label=f"{sweep.rubbed / 60:.4g}"
-            )
-        axis.set_xscale("log")
-        axis.set_xlabel("entrainment speed [m/s]")
-        axis.set_ylabel(label)
-        axis.set_ylim(bottom=0.0)
-        axis.spines[["top", "right"]].set_visible(False)
-    ratio = 100.0 * found[0].holds[0].slide_roll_ratio
-    axes[0].legend(title="rubbed [min]", frameon=False, fontsize="small")
-    axes[0].set_title(f"Stribeck curves of the duty, slide-to-roll ratio {ratio:.3g} %", loc="left", fontsize="medium")
+def _draw_curves(dataset: xr.Dataset, found: list[Sweep]) -> Iterator[Chart]:
+    """Yield friction and lambda ratio over speed, by rubbing time."""
+    title = f"Stribeck curves of the duty, slide-to-roll ratio {100.0 * found[0].holds[0].slide_roll_ratio:.3g} %"
+    for panel, words in ((FRICTION, title), (LAMBDA, LAMBDA.title)):
+        values, lines = dataset[f"contact.{panel.quantities[0]}"].values, []
+        for sweep, colour in zip(found, shades(len(found)), strict=True):
+            speeds = np.array([hold.entrainment_speed for hold in sweep.holds])
+            label = f"{sweep.rubbed / 60:.4g}" if panel is FRICTION else ""
+            lines.append(Line(label, speeds, values[list(sweep.rows)], colour=colour, style="o-"))
+        key = "rubbed [min]" if panel is FRICTION else ""
+        yield Chart(words, "entrainment speed [m/s]", f"{panel.symbol} [–]", lines, logarithmic_x=True, key=key)

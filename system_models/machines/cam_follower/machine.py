@@ -23,7 +23,7 @@ from ..assembly import Contact, Schedule
 from ..kind import Design, Kind
 from ..tables import record, scene_of
 from ..timeline import Timeline
-from . import report
+from . import pictures, report
 from .part import RECEIVED, SENT, CamFollower, contact_name
 from .profile import Station
 
@@ -113,5 +113,5 @@ CAM_FOLLOWER = Kind(
     main=("cam.friction_torque", "cam.power_loss"),
     legend=report.LEGEND,
     lines=report.lines,
-    pictures=report.write,
+    pictures=pictures.sheets,
 )

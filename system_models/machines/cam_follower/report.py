@@ -1,16 +1,15 @@
 """The report of a cam's run: a table over the angle of the cam, mean losses, wear, energy."""
 
 import math
-from pathlib import Path
 
 import xarray as xr
 
+from ...charts.units import CELSIUS
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
-from . import pictures
 from .record import Record
 
-_RPM, _CELSIUS, _NM, _MM = 30.0 / math.pi, 273.15, 1e9, 1e3
+_RPM, _NM, _MM = 30.0 / math.pi, 1e9, 1e3
 LEGEND = {
     "angle": "of the cam, from the nose",
     "radius": "combined radius of the contact",
@@ -36,20 +35,9 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     return [_heading(record), "", *_table(record), "", *_losses(record), *_wear(record), _energy(record)]
 
 
-def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Write the pictures and return their paths."""
-    record, written = Record(assembly, dataset), []
-    for name, draw in pictures.FIGURES.items():
-        figure = draw(record)
-        figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium", parse_math=False)
-        figure.savefig(folder / f"{name}.png", dpi=150)
-        written.append(folder / f"{name}.png")
-    return written
-
-
 def _heading(record: Record) -> str:
     row = record.last
-    warm = [record.of(f"head.temperature_{node}")[row] - _CELSIUS for node in ("oil", "cam", "follower")]
+    warm = [record.of(f"head.temperature_{node}")[row] - CELSIUS for node in ("oil", "cam", "follower")]
     return (
         f"At {record.time[row]:g} s: {record.of('shaft.speed')[row] * _RPM:.0f} rpm, oil at {warm[0]:.1f} degC, cam at "
         f"{warm[1]:.1f} degC, follower at {warm[2]:.1f} degC."

@@ -29,7 +29,7 @@ from ..assembly import Schedule
 from ..kind import Design, Kind
 from ..tables import record, scene_of
 from ..timeline import Timeline
-from . import report
+from . import pictures, report
 from .flanks import contact_at
 from .geometry import FZG_A, FZG_C
 from .mesh import RECEIVED, SENT, GearMesh, flank
@@ -166,5 +166,5 @@ GEAR_PAIR = Kind(
     main=("mesh.friction_coefficient", "mesh.power_loss"),
     legend=report.LEGEND,
     lines=report.lines,
-    pictures=report.write,
+    pictures=pictures.sheets,
 )

@@ -1,7 +1,6 @@
 """The report of a gear pair's run: load stages beside the textbook, safety factors, wear along the flanks, heat."""
 
 from dataclasses import asdict
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -9,7 +8,6 @@ import xarray as xr
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
 from ..report import heat_stored
-from . import pictures as gear_pair_pictures
 from .path import Array
 from .rating import Rating
 from .record import Record, Stage
@@ -52,17 +50,6 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     if not record.stages:
         return ["The duty has no stretch in which the gears turn under load.", *_heat(record)]
     return [*_table(record), "", *_notes(record), *_wear(record), *_heat(record), "", *_safety(record)]
-
-
-def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Write the pictures: the run at a glance, all along the path of contact, all against time."""
-    record, written = Record(assembly, dataset), []
-    for name, draw in gear_pair_pictures.FIGURES.items():
-        figure = draw(record)
-        figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium", parse_math=False)
-        figure.savefig(folder / f"{name}.png", dpi=150)
-        written.append(folder / f"{name}.png")
-    return written
 
 
 def _table(record: Record) -> list[str]:

@@ -12,13 +12,13 @@ import numpy as np
 
 from contact_core.laws.viscosity import kinematic_viscosity
 
+from ...charts.units import CELSIUS
 from .geometry import SpurGearPair
 from .path import Array
 from .sharing import mean_stiffness
 from .textbook import michaelis
 from .working import Working
 
-_ICE = 273.15
 _THERMOELASTIC = 50.0  # X_M [K N^-0.75 s^0.5 m^-0.5 mm]: steel of 206 GPa, B_M = 435 N / (mm^0.5 m^0.5 s^0.5 K)
 _STEEL = 206e9 / (1.0 - 0.3**2)  # Pa, E_r of it
 _TORQUE = 3.726  # N m: torque of load stage k of A/8.3/90 is that times k^2; from memory
@@ -60,7 +60,7 @@ def scuffing_temperature(working: Working) -> float:
     """Return theta_S [K], 80 + (0.85 + 1.4 X_W) X_L S^2 degC, S being the stage at which the oil fails A/8.3/90."""
     rating = working.rating
     welding = 0.85 + 1.4 * rating.structural_factor
-    return _ICE + 80.0 + welding * oil_factor(working) * rating.scuffing_stage**2
+    return CELSIUS + 80.0 + welding * oil_factor(working) * rating.scuffing_stage**2
 
 
 def oil_factor(working: Working) -> float:
@@ -122,11 +122,11 @@ def by_integral(working: Working) -> Integral | None:
     rise = tip_flash(working) * share
     bulk = working.oil + _HEAT * rating.supply_factor * rise
     torque = _TORQUE * rating.scuffing_stage**2
-    nu_40 = 1e6 * float(kinematic_viscosity(working.viscosity, _ICE + 40.0))
+    nu_40 = 1e6 * float(kinematic_viscosity(working.viscosity, CELSIUS + 40.0))
     tested = 0.2 * torque * (100.0 / nu_40) ** 0.02 * rating.oil_factor
     allowed = 80.0 + 0.23 * torque * rating.oil_factor + rating.structural_factor * _WEIGHT * tested
     temperature = bulk + _WEIGHT * rise
-    return Integral(bulk, temperature, _ICE + allowed, allowed / (temperature - _ICE))
+    return Integral(bulk, temperature, CELSIUS + allowed, allowed / (temperature - CELSIUS))
 
 
 def tip_flash(working: Working) -> float:

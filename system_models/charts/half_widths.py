@@ -1,6 +1,8 @@
 """Values with the half widths of their errors as text, and which of them say nothing."""
 
 import math
+from collections.abc import Iterable
+from typing import NamedTuple
 
 from contact_core.quantities import ABSOLUTE, STATED
 
@@ -38,3 +40,25 @@ def says_nothing(output: str, value: float, half: float) -> bool:
 def cell(output: str, value: float, half: float, digits: int) -> str:
     """Return an output in a table, with its half width: UNKNOWN if that says nothing; value and half in one unit."""
     return UNKNOWN if says_nothing(output, value, half) else with_error(value, half, digits)
+
+
+class Column(NamedTuple):
+    """A column of a printed table: an output in the unit that people read."""
+
+    heading: str
+    unit: str
+    name: str  # of the output, behind that of a part
+    factor: float  # from SI
+    digits: int
+
+    @property
+    def title(self) -> str:
+        """The heading with its unit."""
+        return f"{self.heading} [{self.unit}]" if self.unit else self.heading
+
+    def cells(self, values: Iterable[float], halves: Iterable[float] | None = None) -> list[str]:
+        """Return values in SI as text, with half widths where there are some."""
+        if halves is None:
+            return [f"{self.factor * value:.{self.digits}f}" for value in values]
+        output, pairs = self.name.rpartition(".")[2], zip(values, halves, strict=True)
+        return [cell(output, self.factor * value, self.factor * half, self.digits) for value, half in pairs]

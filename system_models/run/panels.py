@@ -1,6 +1,6 @@
 """Which quantities of a contact are drawn, in which words; both bodies in one chart."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -8,9 +8,9 @@ import xarray as xr
 
 from contact_core.quantities import TABLE
 
+from ..charts.chart import Array, Chart, Line, Spans
+from ..charts.units import Unit, negligible, time_unit, unit_for
 from ..store.results import ERROR, half_width
-from .chart import Array, Chart, Line
-from .shown import Unit, negligible, time_unit, unit_for
 
 _ALL = slice(None)
 _CAPPED = 999.0  # lambda ratios from here on are at their cap, which says nothing
@@ -32,28 +32,35 @@ def _bodies(title: str, name: str, symbol: str, caption: str, downward: bool = F
     return Panel(title, (f"{name}_1", f"{name}_2"), ("body 1", "body 2"), symbol, caption, downward)
 
 
+FRICTION = Panel("Friction coefficient", ("friction_coefficient",), ("µ",), "µ", "Friction force over load.")
+LAMBDA = Panel(
+    "Lambda ratio", ("lambda_ratio",), ("λ",), "λ",
+    "Film thickness over composite roughness of the rough, deformed contact. Limits of handbooks hold for the "
+    "lambda of smooth surfaces, not for this one.",
+)  # fmt: skip
+FILM = Panel(
+    "Central film thickness", ("h_c",), ("h_c",), "h_c",
+    "Mean gap over the inner two thirds of the Hertz contact, solids included where they touch.",
+)  # fmt: skip
+TRIBOFILM = _bodies("Tribofilm", "tribofilm", "thickness", "Mean thickness over the wear track of each body.")
+WEAR = _bodies("Wear depth", "wear_depth", "depth", "Mean depth over the wear track; the axis runs down.", True)
+ROUGHNESS = _bodies("Roughness", "roughness", "Rq", "Root mean square roughness across the middle of the track.")
+PRESSURE = Panel("Largest pressure", ("pressure_max",), ("p_max",), "p_max", "At a single node of the grid.")
 MAIN = (
-    Panel("Friction coefficient", ("friction_coefficient",), ("µ",), "µ", "Friction force over load."),
-    Panel(
-        "Central film thickness", ("h_c",), ("h_c",), "h_c",
-        "Mean gap over the inner two thirds of the Hertz contact, solids included where they touch.",
-    ),
-    Panel(
-        "Lambda ratio", ("lambda_ratio",), ("λ",), "λ",
-        "Film thickness over composite roughness of the rough, deformed contact. Limits of handbooks hold for the "
-        "lambda of smooth surfaces, not for this one.",
-    ),
+    FRICTION,
+    FILM,
+    LAMBDA,
     Panel(
         "Load carried by solids", ("contact_load_ratio",), ("W_c",), "W_c",
         "Share of the load that touching asperities carry: 0 is a full film, 1 is dry.", share=True,
     ),
-    _bodies("Tribofilm", "tribofilm", "thickness", "Mean thickness over the wear track of each body."),
-    _bodies("Wear depth", "wear_depth", "depth", "Mean depth over the wear track; the axis runs down.", True),
+    TRIBOFILM,
+    WEAR,
 )  # fmt: skip
 MORE = (
     Panel("Real contact area", ("contact_area_ratio",), ("A_c",), "A_c", "Touching area over the Hertz area."),
-    _bodies("Roughness", "roughness", "Rq", "Root mean square roughness across the middle of the track."),
-    Panel("Largest pressure", ("pressure_max",), ("p_max",), "p_max", "At a single node of the grid."),
+    ROUGHNESS,
+    PRESSURE,
     _bodies("Bulk temperature", "temperature", "temperature", "Of the bodies away from the contact."),
     Panel(
         "Flash temperature rise", ("flash_temperature_rise",), ("rise",), "rise",
@@ -76,17 +83,14 @@ DUTY = (
 )
 
 
-def charts(
-    dataset: xr.Dataset, panels: tuple[Panel, ...], contact: str, shaded: tuple[tuple[float, float], ...]
-) -> Iterator[Chart]:
+def charts(dataset: xr.Dataset, panels: Sequence[Panel], contact: str, invalid: Spans) -> Iterator[Chart]:
     """Yield the charts of a contact that have anything to show; what is zero throughout is left out."""
     for panel in panels:
         names = [f"{contact}.{name}" if contact else name for name in panel.quantities]
         there = [name for name in names if name in dataset]
-        if any(np.nanmax(np.abs(values(dataset, name)), initial=0.0) > 0.0 for name in there) and _changes(
-            dataset, there
-        ):
-            yield chart(dataset, panel, there, shaded)
+        some = any(np.nanmax(np.abs(values(dataset, name)), initial=0.0) > 0.0 for name in there)
+        if some and _changes(dataset, there):
+            yield chart(dataset, panel, there, invalid)
 
 
 def constants(dataset: xr.Dataset, panels: tuple[Panel, ...]) -> Iterator[str]:
@@ -95,7 +99,7 @@ def constants(dataset: xr.Dataset, panels: tuple[Panel, ...]) -> Iterator[str]:
         for name, label in zip(panel.quantities, panel.labels, strict=True):
             if name not in dataset or _changes(dataset, [name]) or not values(dataset, name)[-1]:
                 continue
-            unit = unit_of(dataset, [name], name)
+            unit = unit_of([(dataset, name)], name)
             if negligible(float(unit.of(values(dataset, name)[-1]))):
                 continue
             who = f" of {label}" if len(panel.quantities) > 1 else ""
@@ -112,39 +116,44 @@ def _changes(dataset: xr.Dataset, names: list[str]) -> bool:
     )
 
 
-def chart(dataset: xr.Dataset, panel: Panel, names: list[str], shaded: tuple[tuple[float, float], ...] = ()) -> Chart:
-    """Return one chart against time, with the bands that the result has; `shaded` are spans of time [s]."""
-    clock = time_unit(float(dataset.variables["time"].values[-1]))
-    unit = unit_of(dataset, names, panel.quantities[0])
+def chart(dataset: xr.Dataset, panel: Panel, names: Sequence[str], invalid: Spans = ()) -> Chart:
+    """Return one chart against time, with the bands that the result has; `invalid` are spans of time [s]."""
+    columns = [(label, dataset, name, k) for k, (name, label) in enumerate(zip(names, panel.labels, strict=False))]
+    return overlaid(panel, panel.title, panel.quantities[0], columns, invalid)
+
+
+def overlaid(
+    panel: Panel, title: str, quantity: str, columns: Sequence[tuple[str, xr.Dataset, str, int]], invalid: Spans = ()
+) -> Chart:
+    """Return a chart of variables of any results: label, result, variable and place in the palette of each."""
+    clock = time_unit(max(float(dataset.variables["time"].values[-1]) for _, dataset, _, _ in columns))
+    unit = unit_of([(dataset, name) for _, dataset, name, _ in columns], quantity)
     lines = [
         Line(
-            label,
-            clock.of(dataset.variables["time"].values),
-            unit.of(values(dataset, name)),
-            band(dataset, name, unit),
-            place,
+            label, clock.of(dataset.variables["time"].values), unit.of(values(dataset, name)),
+            band(dataset, name, unit), place,
         )
-        for place, (name, label) in enumerate(zip(names, panel.labels, strict=False))
-    ]
-    at = tuple((float(clock.of(begin)), float(clock.of(end))) for begin, end in shaded)
+        for label, dataset, name, place in columns
+    ]  # fmt: skip
     return Chart(
-        panel.title,
-        f"time {clock.label}",
-        f"{panel.symbol} {unit.label}",
-        lines,
-        panel.caption,
-        at,
-        from_zero=unit.offset == 0.0,
-        downward=panel.downward,
-        most=1.0 if panel.share else None,
-    )
+        title, f"time {clock.label}", f"{panel.symbol} {unit.label}", lines, panel.caption,
+        from_zero=unit.offset == 0.0, downward=panel.downward, most=1.0 if panel.share else None,
+        dark=[(float(clock.of(begin)), float(clock.of(end))) for begin, end in invalid],
+    )  # fmt: skip
 
 
-def unit_of(dataset: xr.Dataset, names: list[str], quantity: str, rows: slice = _ALL) -> Unit:
+def apart(panel: Panel) -> Iterator[tuple[str, str]]:
+    """Yield the quantities of a panel, each for a chart of its own, with its title."""
+    for name, label in zip(panel.quantities, panel.labels, strict=True):
+        yield name, f"{panel.title}, {label}" if len(panel.quantities) > 1 else panel.title
+
+
+def unit_of(columns: Sequence[tuple[xr.Dataset, str]], quantity: str, rows: slice = _ALL) -> Unit:
     """Return the unit in which variables of the same quantity are read, by some of their rows."""
-    largest = np.concatenate([values(dataset, name)[rows] for name in names])
-    known = TABLE.get(quantity)
-    return unit_for(dataset.variables[names[0]].attrs.get("units", "1"), largest, bool(known and known.relative))
+    largest = np.concatenate([values(dataset, name)[rows] for dataset, name in columns])
+    dataset, name = columns[0]
+    difference = TABLE[quantity].relative if quantity in TABLE else "rise" in quantity
+    return unit_for(dataset.variables[name].attrs.get("units", "1"), largest, difference)
 
 
 def values(dataset: xr.Dataset, name: str) -> Array:

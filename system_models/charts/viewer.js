@@ -28,7 +28,8 @@ function readable(svg) {
     const [left, top, right, bottom] = data.box, frame = svg.getBoundingClientRect();
     const scale = frame.width / svg.viewBox.baseVal.width, at = (event.clientX - frame.left) / scale;
     if (at < left || at > right) return hide();
-    const x = data.range[0] + (at - left) / (right - left) * (data.range[1] - data.range[0]);
+    const [low, high] = data.log ? data.range.map(Math.log) : data.range, there = low + (at - left) / (right - left) * (high - low);
+    const x = data.log ? Math.exp(there) : there;
     if (!tip) {
       tip = document.createElement("div");
       tip.className = "tip";
@@ -45,7 +46,7 @@ function readable(svg) {
       return [line, k, (data.lines.length > 1 ? line.label + ": " : "") + number(line.y[k]) + band];
     });
     const shown = rows[0][0].x[rows[0][1]];
-    const place = left + (shown - data.range[0]) / (data.range[1] - data.range[0]) * (right - left);
+    const place = left + ((data.log ? Math.log(shown) : shown) - low) / (high - low) * (right - left);
     cursor.setAttribute("x1", place);
     cursor.setAttribute("x2", place);
     tip.replaceChildren(`${data.x}: ${number(shown)}`, ...rows.flatMap(([line, , words]) => {

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..run.half_widths import digits_of
+from .half_widths import digits_of
 
-_ZERO = 273.15  # K
+CELSIUS = 273.15  # K, of 0 degC
 _DEGREES = "°C"
 _PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"), (1e9, "G"))
 _PREFIXED = ("m", "Pa", "W", "N", "J", "N m")  # units that take a prefix
@@ -47,7 +47,7 @@ def unit_for(si: str, values: ArrayLike, difference: bool = False) -> Unit:
     if si in ("1", ""):
         return Unit("")
     if si == "K":
-        return Unit("K") if difference else Unit(_DEGREES, 1.0, -_ZERO)
+        return Unit("K") if difference else Unit(_DEGREES, 1.0, -CELSIUS)
     if si in ("m3", "m3/s"):
         return Unit(si.replace("m3", "µm³"), 1.0 / _VOLUME)
     if si == "rad/s" and largest > _OVERFLOW:
