@@ -351,6 +351,8 @@ class FittedSharing:
     def exposed(self, area_ratio: Numbers, *, rougher: bool, dry: bool = False) -> Numbers:
         """Return the share of a body's points within Hertz's width that touch the other body in one pass.
 
+        1 - exp(-k A_c^q), with k and q of the rougher or the smoother body.
+
         `dry`: where dry contact drives the blocks (control.driver).
         """
         if dry:
@@ -361,6 +363,9 @@ class FittedSharing:
 
     def coverage(self, exposed: Numbers, growth: Numbers, *, rougher: bool) -> Numbers:
         """Return the coverage of a body: its mean growth over the growth where it is rubbed, by exposure.
+
+        C = [C_0^n + (1 - C_0^n) g^n]^(1/n), C_0 = m / [m + V (1 - m)], n = 2 / (1 - V), m being the mean exposure and g
+        the mean growth.
 
         `exposed` is the mean exposure, 0 to 1, and `growth` the mean growth over its full thickness.
 
