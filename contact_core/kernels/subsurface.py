@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
 
 _LONG = 1e14  # cells: a rectangle of this length is an infinite strip
-_PERIODS, _CELLS = 8, 32  # on either side that are summed one by one, at least
+_PERIODS, _CELLS = 8, 32  # periods and cells on either side that are summed one by one, at least
 _ODD_X = (False, False, False, False, True, True)  # components under pressure that change their sign with x
 _ODD_Y = (False, False, False, True, False, True)
 

@@ -11,7 +11,7 @@ from .equations import Equations
 _FLATTENING = 0.2  # reference of the constants: about that of the shipped circles
 # films and flattening beyond which no solid carries anything: no power of them may overflow
 _THICKEST, _MOST = 1e30, 1e60
-_AMID, _EVENED = 0.45, 1.15  # flattening; by solved contacts with flattenings of 0.14 to 23, and smooth ones
+_AMID, _EVENED = 0.45, 1.15  # flattening at which oil keeps `oil_kept`, and scale of its change with flattening
 _FURTHER = 1.25  # times the largest numbers of the fit, beyond which they count no more
 _YIELDING = 10.0  # hardness over the pressure at which asperities begin to yield, chosen
 _ALL_WAVES = 2.3  # their rms slope over that of the longest wave alone, see `asperity_layer`

@@ -23,7 +23,7 @@ _STATED = ".error_"  # in names of outputs: errors that a contact states
 _SAFETY = 3.0  # of two grids: Roache, J. Fluids Eng. 116 (1994) 405; measured: benchmarks/machines/tolerance.py
 _SHOWN = 5
 _SMALL = 0.01  # of the nominal: smaller values count as zero
-_FIRST = 3  # steps after a change of the duty, or beside a jump of an output: where in a step it lies is no error
+_FIRST = 3  # steps after a change of the duty or next to a jump of an output, where a difference is no error
 _JUMP = 0.1  # of its largest value: an output that changes by more in a step is not resolved there
 _ALONE = 3.0  # times the changes in the steps before and after: a smaller jump
 

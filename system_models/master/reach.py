@@ -1,4 +1,4 @@
-"""On which connections the options of accuracy act: one that acts on none is refused, what others miss is told."""
+"""On which connections the options of accuracy act: else it is refused; what it misses is named."""
 
 import logging
 from collections.abc import Callable, Iterator

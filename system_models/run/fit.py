@@ -25,7 +25,7 @@ from .fit_model import Constant, Model, Places, Points
 
 FAST, SLOW = "regression", "deterministic"
 _STARTS = 8  # sets of constants tried for each constant
-_LOCALLY = 2  # of these are searched from, beside the scene's own
+_LOCALLY = 2  # of these sets a search starts, besides the scene's own
 _AGREED = 0.3  # standard deviations by which fitted curves and the deterministic level may differ
 _MOST = 6  # runs of the deterministic level
 _FLAT = 0.01  # of a quantity's largest value: below, levels differ by a sum, not by a factor

@@ -27,7 +27,7 @@ COLUMNS = (
     ("A_c", "", "contact_area_ratio", 1.0, 3),
     ("W_c", "", "contact_load_ratio", 1.0, 3),
 )
-_BELOW = (  # of runs with stresses; those of damage where there is any
+_BELOW = (  # outputs of runs with stresses; those of damage where there is any
     ("von Mises", "GPa", "von_mises_max", 1e-9, 3),
     ("at depth", "um", "von_mises_depth", 1e6, 1),
     ("damage 1", "", "damage_1", 1.0, 4),
