@@ -66,7 +66,8 @@ def test_point_contact(example: Example) -> None:
     contact = example("point_contact")["contact"]
     half_width = (1.5 * 50.0 * 0.01 / 230e9) ** (1.0 / 3.0)
     assert contact.pressure_max == approx(1.5 * 50.0 / (math.pi * half_width**2), rel=0.03)
-    assert contact.h_central == approx(hamrock_dowson(50.0, 0.01, 0.5, 0.01, 18e-9, 230e9), rel=0.15)
+    film = hamrock_dowson(50.0, 0.01, 0.5, 0.01, 18e-9, 230e9)
+    assert 0.8 * film < contact.h_central < film  # which is up to a fifth thicker than solutions
     row, column = np.unravel_index(contact.film.argmin(), contact.film.shape)
     assert abs(contact.y[row]) > 0.6 * half_width > abs(contact.x[column])
 
@@ -107,13 +108,13 @@ def test_dimple(example: Example) -> None:
 
 
 def test_stribeck(example: Example) -> None:
-    """Dry friction at the slow end; the film of Hamrock and Dowson's power at the fast one."""
+    """Dry friction at the slow end; the film of Hamrock and Dowson at the fast one."""
     names = example("stribeck")
     assert 0.115 < names["friction"][0] < 0.13
     assert names["friction"][-1] < 0.03
     assert np.all(np.diff(names["share"]) < 0.0)
-    power = np.log(names["film"][-1] / names["film"][-6]) / np.log(names["speeds"][-1] / names["speeds"][-6])
-    assert power == approx(0.67, abs=0.1)
+    film = hamrock_dowson(53.7, 9.525e-3, 10.0, 4e-3, 14.94e-9, STEEL)
+    assert 0.8 * film < names["film"][-1] < film  # which is up to a fifth thicker than solutions
 
 
 def test_traction(example: Example) -> None:
