@@ -124,7 +124,7 @@ def first_film(case: Case, state: ContactState) -> FilmState:
 
 
 def instant_time(case: Case) -> float:
-    """Return the time [s] from instant to instant: of oil, or of a body that runs far ahead of it, by so many nodes."""
+    """Return the time [s] between instants: the oil, or a much faster body, moves on by `nodes_per_instant`."""
     entrained = abs(case.op.entrainment_speed)
     leading = entrained if case.fastest <= _AHEAD * entrained else case.fastest
     return case.scene.control.nodes_per_instant * case.scene.film.spacing / leading

@@ -25,7 +25,7 @@ _OWN = 3.0  # power of the other body's share of the roughness in what a body me
 
 
 class Rough(NamedTuple):
-    """What the roughness of a contact is to the stresses below it."""
+    """Numbers of a contact's roughness on which the stresses below it depend."""
 
     steepness: float  # q, E* slope / Hertz's largest pressure
     clearance: float  # Z, film of the smooth bodies / composite roughness

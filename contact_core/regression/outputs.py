@@ -208,7 +208,7 @@ def _of_rolling(case: Case, contact: MeanContact) -> float:
 
 
 def _of_history(before: Outputs, films: tuple[float, float], means: Means, now: dict[str, Any]) -> dict[str, float]:
-    """Return the errors of tribofilms and wear: those of what was there and of what came, by their amounts."""
+    """Return the errors of tribofilms and wear: means of those before and of those of the growth, by amounts."""
     worn = max(means[0].wear - before.wear_depth_1 + means[1].wear - before.wear_depth_2, 0.0)
     depth = before.wear_depth_1 + before.wear_depth_2
     was = (before.tribofilm_1, before.error_tribofilm_1), (before.tribofilm_2, before.error_tribofilm_2)
@@ -224,7 +224,7 @@ def _of_history(before: Outputs, films: tuple[float, float], means: Means, now: 
 
 
 def _of_damage(before: Outputs, below: dict[str, float]) -> float:
-    """Return the error of the damages, the larger one: of what was there and of what came, by their amounts."""
+    """Return the larger error of the damages: a mean of that before and of that of the growth, by amounts."""
     was = before.damage_1, before.damage_2
     return max(
         _mean_error(before.error_damage, held, below["error_damage"], abs(below[f"damage_{i}"] - held))

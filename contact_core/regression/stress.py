@@ -85,7 +85,7 @@ def stressed(case: Case, contact: MeanContact) -> Stressed:
 
 
 def _within(rough: Rough) -> bool:
-    """Return True within the fit; what rolls, or is smoother or better parted than there, counts as within."""
+    """Return True within the fit; contacts that roll, are smoother or have thicker films count as within."""
     return (
         rough.steepness <= FITTED["steepness"][1]
         and rough.clearance >= FITTED["clearance"][0]

@@ -1,4 +1,4 @@
-"""Rough, dry bodies touch on an area that grows in proportion to the load, as Persson's theory says."""
+"""Rough, dry bodies touch on an area that grows almost in proportion to the load, between two theories."""
 
 from pathlib import Path
 

@@ -144,7 +144,7 @@ def _as_it_is(curve: Curve) -> Curve:
 def _through(
     slow: Model, problem: Problem, found: Estimate, everywhere: Points, progress: Callable[[str], None]
 ) -> tuple[Estimate, float, Amend]:
-    """Return the fit at the deterministic level, how far off it is, and what makes its curves of those of the other."""
+    """Return the fit at the deterministic level, its deviation, what turns the other level's curves into its own."""
     count, places = len(problem.measured), everywhere.places
     slow_everywhere = Points(slow, *places)
     best: tuple[float, Estimate, float, Amend] | None = None

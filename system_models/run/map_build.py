@@ -69,7 +69,7 @@ class Judged:
 
 @dataclass(frozen=True)
 class Built:
-    """A map and what it is made of."""
+    """A map, its histories and how good it is."""
 
     order: Order
     chart: Map
@@ -206,7 +206,7 @@ def _head(order: Order) -> dict[str, object]:
 
 
 def read(order: Order, file: Path) -> dict[Task, History]:
-    """Return the histories of a file by what was to be solved; without one it is begun.
+    """Return the histories of a file by their tasks; without a file, begin one.
 
     A last line that a kill has cut is left out. Raises ContactError if they are of another scene or other ranges.
     """

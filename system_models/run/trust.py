@@ -137,7 +137,7 @@ def _flooded(cases: Sequence[Case]) -> float:
 
 
 def _below_the_grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
-    """Return a line on roughness below the grid that a scene does not give, and what that is worth, where it counts."""
+    """Return a line on roughness below the grid that a scene does not give, with its effect, where it matters."""
     bare = [f"surface_{i}" for i, s in enumerate((scene.surface_1, scene.surface_2), 1) if _lacks_layer(s)]
     rough = math.hypot(*(side.surface.rms for side in cases[0].sides))
     thinnest = min(cases, key=lambda case: case.conventional_film)

@@ -113,7 +113,7 @@ class BearingRun:
 
     @property
     def last(self) -> int:
-        """The last row at the speed that the shaft has reached when it turns last; the last of all if it never does."""
+        """The last row near the speed of the last start; the last row of all if the shaft never starts."""
         if not self.starts:
             return self.time.size - 1
         rows = np.arange(self.starts[-1][-1], self.time.size)
