@@ -3,21 +3,17 @@
 from pathlib import Path
 
 import matplotlib.pyplot as plt
-import xarray as xr
 
-from system_models.cli.main import main
+from system_models.runs import run_machine
 
-changes = [
-    "shaft.initial_speed=3000 rpm",
-    "duty.speed=3000 rpm",
-    "duty.steps=[]",
-    "duty.duration=1 h",
-    "bearing.levels=2",
-]
-main(["run", "bearing_209", "--unchecked", "--force", "--out", "results/bearing", "--set", *changes])
-
-with xr.open_dataset("results/bearing/result.nc") as file:
-    run = file.load()
+changes = {
+    "shaft.initial_speed": "3000 rpm",
+    "duty.speed": "3000 rpm",
+    "duty.steps": "[]",
+    "duty.duration": "1 h",
+    "bearing.levels": "2",
+}
+run = run_machine("bearing_209", "results/bearing", changes, checks=False, force=True).dataset
 minutes = run["time"] / 60.0
 figure, axes = plt.subplots(1, 3, figsize=(9.5, 3.2), layout="constrained")
 axes[0].plot(minutes, 1e3 * run["bearing.friction_torque"])

@@ -4,16 +4,16 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-import xarray as xr
 
-from system_models.cli.main import main
+from system_models.runs import run_machine
 
 STATIONS = range(1, 12)
-changes = ["mesh.stations=11", "duty.duration=2 min", 'duty.steps=[{time = "1 s", torque = "265 N m"}]']
-main(["run", "gear_fzg_c", "--unchecked", "--force", "--out", "results/gear", "--set", *changes])
-
-with xr.open_dataset("results/gear/result.nc") as file:
-    end = file.isel(time=-1).load()
+changes = {
+    "mesh.stations": "11",
+    "duty.duration": "2 min",
+    "duty.steps": '[{time = "1 s", torque = "265 N m"}]',
+}
+end = run_machine("gear_fzg_c", "results/gear", changes, checks=False, force=True).dataset.isel(time=-1)
 
 
 def along(name):
