@@ -15,7 +15,7 @@ from .state import ContactState, Error, Outputs, initial_state
 
 _LONGEST_STEP = 1e9  # s: a longer one is a mistake, and would never end
 _POINTS = 33  # nodes along an axis: enough for each stage of a contact, too few to cost time
-_SPEED = 0.1  # m/s: of one body, where the scene lets nothing slide
+_SPEED = 0.1  # m/s: speed of one body, for scenes in which nothing slides
 
 
 class Level(Protocol):

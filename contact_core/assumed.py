@@ -19,14 +19,14 @@ from .state import ContactState, initial_state
 
 WEAR = "wear_depth"  # of both bodies together: their wear rate now
 TRIBOFILM = "tribofilm"  # of both bodies together: their growth now
-RATES = (WEAR, TRIBOFILM)  # outputs whose half widths are relative, those of their rates
+RATES = (WEAR, TRIBOFILM)  # outputs whose half widths are relative to their rates
 OUTPUTS = ("friction_coefficient", "h_c", "contact_load_ratio", *RATES)
 HEADS = ("assumed", "between", "friction", "h_c", "W_c", "wear rate", "tribofilm")
 Answers = Mapping[str, float]  # outputs by name; of those called as one of RATES, changes count relative
 _FILM = "h_c"
 # half widths that are told: of friction and shares, of films [m], of rates relative
 LEAST = {"friction_coefficient": 1e-4, _FILM: 1e-10, "contact_load_ratio": 1e-3, WEAR: 1e-3, TRIBOFILM: 1e-3}
-_UNKNOWN = 1e3  # relative, of what nothing makes now but may
+_UNKNOWN = 1e3  # relative half width of an output that is zero now but need not be
 _MOMENT = 1e-3  # s: in which a tribofilm is seen to grow
 
 

@@ -1,11 +1,11 @@
-"""What a long step is doing, told to those who wait. Without a listener nothing happens; no answer depends on it."""
+"""Progress of a long step: listeners are called with what it is doing. No result depends on it."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-Listener = Callable[[str, int, int], None]  # of what is being done, its number, and how many there are
+Listener = Callable[[str, int, int], None]  # task in words, number of the present item, number of items
 
-ALGORITHM = "algorithm"  # of those that are tried in turn at an instant
+ALGORITHM = "algorithm"  # task of trying algorithms in turn at an instant
 
 _listeners: list[Listener] = []
 

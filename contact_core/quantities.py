@@ -93,8 +93,8 @@ def _pair(
     return first, second
 
 
-_FIELDS = ("deterministic",)  # what only fields can tell
-_BLOCKS = ("deterministic", "auto")  # what only blocks can
+_FIELDS = ("deterministic",)  # levels that have fields
+_BLOCKS = ("deterministic", "auto")  # levels that have blocks
 
 # fmt: off
 INPUTS: tuple[Quantity, ...] = (

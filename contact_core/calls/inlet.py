@@ -11,7 +11,7 @@ from ..reference import SmoothContact, SmoothLine
 from ..shapes import Shape
 
 _FILMS = ("h_central", "h_c", "h_min")
-_TOLD, _LEFT = 0.05, 0.01  # of the film: missing from which on a warning says so, and left by its way out
+_TOLD, _LEFT = 0.05, 0.01  # missing parts of the film: more than the first is warned of, the way out leaves the second
 _OF_ACCURACY = 0.09  # missing film over an accuracy that is asked for: within it, whatever the error by the grid
 
 

@@ -23,11 +23,11 @@ Array = NDArray[np.float64]
 _OF_ROWS = ("pressure", "shear", "damage_1", "damage_2", "per_cycle_1", "per_cycle_2")
 _SCALED = 1.01  # of stresses, to see how steeply damage rises with them
 _LEARN = 0.25  # share of the last two passes in the scatter from pass to pass
-_BATCH = 0.005  # of the track that may break out in one block
+_BATCH = 0.005  # share of the track that may break out in one block
 
 
 def with_tractions(below: Below, tractions: Sequence[Traction]) -> Below:
-    """Return what lies below with the tractions of the pass in progress."""
+    """Return the state below the surfaces with the tractions of the pass in progress."""
     return replace(
         below,
         pressure=np.concatenate([each.pressure for each in tractions]),
@@ -37,7 +37,7 @@ def with_tractions(below: Below, tractions: Sequence[Traction]) -> Below:
 
 
 def with_cycles(case: Case, below: Below, found: Pass) -> Below:
-    """Return what lies below after a pass."""
+    """Return the state below the surfaces after a pass."""
     law = case.scene.fatigue
     if not law.damages:
         return below
@@ -61,7 +61,7 @@ def at_rest(below: Below) -> Below:
 
 
 def _at_rate(below: Below, rate: Array) -> Below:
-    """Return what lies below with new rates: the last ones were, in their time, late by half of the change."""
+    """Return the state below the surfaces with new damage rates; half of their change is an error of the last step."""
     step = np.where(below.rate > 0.0, rate - below.rate, 0.0)
     return replace(below, rate=rate, step=step, late=below.late + 0.5 * step * below.held, held=0.0)
 

@@ -63,7 +63,7 @@ def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, O
 
 
 def _without_next_to_nothing(case: Case) -> Case:
-    """Return the case without a load or speeds too small to be told from none."""
+    """Return the case with loads and speeds that are too small to matter set to zero."""
     none = {name: 0.0 for name, least in _LEAST.items() if 0.0 < abs(getattr(case.op, name)) < least}
     return replace(case, op=replace(case.op, **none)) if none else case
 

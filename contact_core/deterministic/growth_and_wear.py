@@ -162,7 +162,7 @@ def sliding_on_track(case: Case, rows: int) -> float | Array:
 
 
 def area_of_node(case: Case, side: Side) -> float:
-    """Return the area [m2] that one node of the patch stands for: the patch repeats along a moving body's track."""
+    """Return the area [m2] that one node of the patch represents: the patch repeats along a moving body's track."""
     film = case.scene.film
     return film.spacing**2 * case.scene.repeats * (side.track_length / film.domain if side.moves else 1.0)
 

@@ -27,7 +27,7 @@ from .transient import begin, follow, node_speed
 Array = NDArray[np.float64]
 Duty = Callable[[float], OperatingPoint]
 
-_ROUNDING = 1e-6  # of a node, by which a step may be longer than that
+_ROUNDING = 1e-6  # of a node: a step may be longer than a node by so much
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from .transient import Found, dry_instant, follow
 
 
 def present_instant(case: Case, state: ContactState) -> Found:
-    """Solve the contact where a run has got to; the state stands, and what the run does next does not depend on it.
+    """Solve the contact at the present time of a run; the state is not changed, and the run goes on as without it.
 
     With a film: the next instant of its march. In a dry block and without entrainment: a dry one. Else, as without a
     load or after a change of the inputs: a steady one.

@@ -34,7 +34,7 @@ def couple(grid: Grid, gap: Array, fluid: Array) -> float:
 
 
 def beyond_grid(case: Case, grid: Grid) -> float:
-    """Return what of the couple [N] the inlet makes before the edge of the grid, as far as it is full."""
+    """Return the part of the couple [N] that the full inlet makes beyond the edge of the grid."""
     op, oil = case.op, case.scene.lubricant
     reach = oil.supply.reach(case.hertz.a, case.shape.radius_x) if case.loaded else 0.0
     before, beside = -float(grid.x[0]), float(np.abs(grid.y).max())

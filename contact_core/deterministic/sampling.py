@@ -26,10 +26,10 @@ from .transient import dry_instant, next_instant, rolled
 # way of the oil after a new start before the march is sampled, in halves of the contact's length: in near rolling; in
 # proportion more where the faster body runs ahead of the oil
 _PASSAGE = 3.0
-_MOST_SETTLING = 400  # nodes of the way of what leads, the oil or the faster body
-_ITERATIONS = 300  # at most, of one transient step; a warm one needs about 16, after a jump up to 200
-_DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
-_CLEAR = 3.0  # formula film over rms roughness, from which on a dry contact is no start
+_MOST_SETTLING = 400  # nodes by which the oil or the faster body moves on while a film settles, at most
+_ITERATIONS = 300  # most iterations of one transient step; it needs about 16 from a near film, up to 200 after a jump
+_DRY_PASS = 8  # dry instants in one pass of a surface point through the contact
+_CLEAR = 3.0  # film by formula over rms roughness above which a dry contact is no start
 # correlation of instants a short way apart, and way of the oil over a of Hertz's contact in which it falls to zero
 _ALIKE_AT_ONCE, _ALIKE = 0.9, 0.75
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
@@ -147,7 +147,7 @@ def mixed_instants(scene: Scene) -> int:
 
 
 def likeness(case: Case, count: int, driver: str) -> float:
-    """Return the mean correlation of two of so many instants of a block; dry ones lie far apart.
+    """Return the mean correlation between two instants of a block; dry instants lie far apart.
 
     The share of the load on the solids: `python -m benchmarks.film.time_step`.
     """

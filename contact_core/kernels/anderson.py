@@ -10,7 +10,7 @@ from .compiled import jit
 
 Array = NDArray[np.float64]
 
-_CHUNK = 512  # of the vectors, so that it stays in the fastest cache
+_CHUNK = 512  # entries of the vectors that are treated together, so that they stay in the fastest cache
 _REGULAR = 1e-6
 _LARGEST = 3.0  # sum of the magnitudes of the mixing weights
 

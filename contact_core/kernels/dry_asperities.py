@@ -19,14 +19,14 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 _START_TOLERANCE = 1e-2  # of the contact without asperities
-_SPREAD = 2.0  # depths that the start is further apart by than that contact
+_SPREAD = 2.0  # depths by which the bodies of the start are further apart than those of that contact
 _INNER = 0.03  # residual of a Newton step, relative
 _NEAR = 1e-3  # change of pressure over the load, below which steps are taken in full: rounding hides the energy
 _INNER_ITERATIONS = 200
 _HALVINGS = 12
 _LEAST = 1e-250  # of the stress, below which a pressure holds bodies no further apart
 _FAINT = 1e-3  # of the largest pressure, below which a node of a light contact counts as open
-_FALL = 0.9  # of a pressure, at most, that one step takes away where the asperities do not bend
+_FALL = 0.9  # largest part of a pressure that one step takes away where the asperities do not bend
 
 
 def solve_dry_asperities(

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_THINNEST = 1e-9  # film beside which that at the edge is infinite
+_THINNEST = 1e-9  # ratio of films below which the film at the edge counts as infinite
 
 
 def far_field(

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 _MARGIN = 16
 _LOVE_UP_TO = 64  # cells, from where on two terms of the expansion of a cell's potential are as exact
-_PERIODS = 12  # on either side that are summed one by one
+_PERIODS = 12  # periods on either side that are summed one by one
 # datum of `near`: in periods, the one for which the images of a node do not displace it; and its least nodes
 _LOCAL, _LEAST_LOCAL = 2.0 * np.exp(-np.euler_gamma), 3.0
 

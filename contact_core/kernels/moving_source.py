@@ -23,7 +23,7 @@ Spectrum = NDArray[np.complex128]
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _BATCH = 64  # panels at once, which bounds the memory
 _STILL = 1e-100  # Peclet number up to which a source does not move
-_FAR = 1e16  # cells; heat that has spread over so many no longer counts
+_FAR = 1e16  # cells: heat that has spread over so many counts as none
 _DEEP = 6.0  # erfc(6) = 2e-17
 _IMAGES = 6  # on either side, of a cell whose heat has spread to a Gaussian no wider than the period
 _WAVES = 2  # of one that is wider: exp[-(3 pi)^2] = 3e-39

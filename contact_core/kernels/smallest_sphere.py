@@ -16,7 +16,7 @@ import numpy as np
 
 from .compiled import jit
 
-PRECISION = 1e-9  # of a radius: at most so much above that of the smallest sphere, relative
+PRECISION = 1e-9  # largest relative excess of the radius over that of the smallest sphere
 _CLOSE = 2.0 * PRECISION  # the same of the squared radius
 _FLAT = 1e-13  # squared distance from the plane of the others, relative, of a point that counts as lying in it
 _DIMENSIONS = 5

@@ -26,6 +26,9 @@ def von_mises(stress: Array) -> Array:
 def principal(stress: Array) -> Array:
     """Return the principal stresses [3, ...], the largest first.
 
+    sigma_h + 2 sqrt(J2 / 3) cos(theta + 2 pi k / 3), cos(3 theta) = det s / [2 (J2 / 3)^1.5], with the mean sigma_h and
+    the deviator s.
+
     By the trigonometric roots of the characteristic cubic of the deviator; where two of them all but agree, to 1e-8 of
     the third one.
     """

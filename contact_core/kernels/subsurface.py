@@ -1,5 +1,12 @@
 """Stress in an elastic half space under pressure and shear that are constant on square cells of its surface.
 
+With the potentials of p, H = sum of p ln(r + z) and V = sum of p / r, and of shear q along x, O = sum of q [z ln(r + z)
+- r], F = sum of q ln(r + z) and W = sum of q / r, all sums being integrals over the surface, and letters after a comma
+derivatives, the stress under p is 2 pi S_ij = -(1 - 2 nu) H,ij - z V,ij + 2 nu d_ij V,z for i, j = x, y; 2 pi S_zz =
+V,z - z V,zz; 2 pi S_iz = -z V,iz. Under q it is 2 pi S_xx = 2 (1 + nu) W,x + 2 nu O,xxx - z F,xxx; 2 pi S_yy = 2 nu W,x
++ 2 nu O,xyy - z F,xyy; 2 pi S_zz = -z W,xz; 2 pi S_yz = -z W,xy; 2 pi S_xz = W,z - z W,xx; 2 pi S_xy = W,y + 2 nu O,xxy
+- z F,xxy. Of a periodic half space the nearest images count one by one, beyond them an even load.
+
 Sources of the coefficients: Love, Phil. Trans. R. Soc. A 228 (1929) 377, doi:10.1098/rsta.1929.0009, for pressure; the
 potentials of Boussinesq and Cerruti (Johnson, Contact Mechanics, 1985, doi:10.1017/CBO9781139171731, section 3.2),
 integrated over a cell, for shear; of the convolution: Liu & Wang, J. Tribol. 124 (2002) 36, doi:10.1115/1.1401017.
@@ -19,7 +26,7 @@ Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
 
 _LONG = 1e14  # cells: a rectangle of this length is an infinite strip
-_PERIODS, _CELLS = 8, 32  # on either side that are summed one by one, at least
+_PERIODS, _CELLS = 8, 32  # periods and cells on either side that are summed one by one, at least
 _ODD_X = (False, False, False, False, True, True)  # components under pressure that change their sign with x
 _ODD_Y = (False, False, False, True, False, True)
 

@@ -20,7 +20,7 @@ PLASTIC_PRESSURE = 1.1  # p0 where all yields, in hardnesses
 ELASTIC_HEIGHT, PLASTIC_HEIGHT = 0.44, 0.52  # h0
 SLOPE = 2.3  # rms slope; 1.82 and 2.87 for waves over a factor of 4 and 16
 AREA = 2.2  # touching share at light pressures, in pressures over E'/2 and the rms slope
-STEEPEST = 0.3  # rms slope of one wave, beyond which heights or lengths are in a wrong unit
+STEEPEST = 0.3  # rms slope of one wave; a steeper one means heights or lengths in a wrong unit
 
 
 @dataclass(frozen=True)

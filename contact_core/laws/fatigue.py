@@ -91,7 +91,7 @@ class Basquin:
 
 @dataclass(frozen=True)
 class DangVan:
-    """Woehler's line over Dang Van's stress: the shear in the cycle and the hydrostatic stress beside it.
+    """Woehler's line over Dang Van's stress: shear of the cycle and hydrostatic stress together.
 
     The stress falls by the same amount for each factor e of the life. It is weighed by limits of the table `stress`;
     under pressure alone it is below zero, and nothing counts.

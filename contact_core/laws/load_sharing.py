@@ -11,7 +11,7 @@ from .equations import Equations
 _FLATTENING = 0.2  # reference of the constants: about that of the shipped circles
 # films and flattening beyond which no solid carries anything: no power of them may overflow
 _THICKEST, _MOST = 1e30, 1e60
-_AMID, _EVENED = 0.45, 1.15  # flattening; by solved contacts with flattenings of 0.14 to 23, and smooth ones
+_AMID, _EVENED = 0.45, 1.15  # flattening at which oil keeps `oil_kept`, and scale of its change with flattening
 _FURTHER = 1.25  # times the largest numbers of the fit, beyond which they count no more
 _YIELDING = 10.0  # hardness over the pressure at which asperities begin to yield, chosen
 _ALL_WAVES = 2.3  # their rms slope over that of the longest wave alone, see `asperity_layer`
@@ -351,6 +351,8 @@ class FittedSharing:
     def exposed(self, area_ratio: Numbers, *, rougher: bool, dry: bool = False) -> Numbers:
         """Return the share of a body's points within Hertz's width that touch the other body in one pass.
 
+        1 - exp(-k A_c^q), with k and q of the rougher or the smoother body.
+
         `dry`: where dry contact drives the blocks (control.driver).
         """
         if dry:
@@ -361,6 +363,9 @@ class FittedSharing:
 
     def coverage(self, exposed: Numbers, growth: Numbers, *, rougher: bool) -> Numbers:
         """Return the coverage of a body: its mean growth over the growth where it is rubbed, by exposure.
+
+        C = [C_0^n + (1 - C_0^n) g^n]^(1/n), C_0 = m / [m + V (1 - m)], n = 2 / (1 - V), m being the mean exposure and g
+        the mean growth.
 
         `exposed` is the mean exposure, 0 to 1, and `growth` the mean growth over its full thickness.
 

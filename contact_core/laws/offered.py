@@ -1,4 +1,4 @@
-"""Laws of other packages beside those of this one.
+"""Laws that other installed packages offer.
 
 A package offers a law by an entry point: its group is `tribofmu.laws.` and the slot, its name that of the law, its
 value the class, such as
@@ -48,7 +48,7 @@ def laws_of(slot: str) -> tuple[type[Law], ...]:
 
 @cache
 def of_others() -> dict[str, tuple[type[Law], ...]]:
-    """Return the laws that other packages offer, by slot; looked for once in a process. Raises SceneError likewise."""
+    """Return the laws that other packages offer, by slot; searched once in a process. May raise SceneError."""
     found = {}
     for group, laws in offered(_GROUP).items():
         slot = group.removeprefix(_GROUP)

@@ -12,7 +12,7 @@ _MOST = 1e3  # ratio where the oil itself is as hot as critical
 
 @dataclass(frozen=True)
 class NoScuffing:
-    """Nothing is said of scuffing."""
+    """The risk of scuffing is not computed."""
 
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""

@@ -21,7 +21,7 @@ OF_STRESS = ("von_mises_max", "von_mises_depth", "near_surface_share", "dang_van
 
 _UNIT = 1e9  # Pa
 _RISK = 31.0 / 3.0  # power of a stress in the risk that a volume fails: Lundberg & Palmgren 1947
-_FIRST = 0.5  # of the spacing: depth of the first layer; what is finer lies nearer to the surface
+_FIRST = 0.5  # depth of the first layer over the spacing of the nodes; shorter waves lie nearer to the surface
 _BOUNDS = (1.0, 2.0)  # of the limit in bending over that in torsion, between which Dang Van's slope is 0 or more
 
 

@@ -34,6 +34,8 @@ def jaeger_circle(peclet: float) -> tuple[float, float]:
 def tian_kennedy_circle(peclet: float) -> tuple[float, float]:
     """Return the rises of `jaeger_circle` by formulas that are exact at rest and at high speed.
 
+    In q r / K: largest 2 / sqrt[pi (1.273 + Pe)], mean 1.22 / sqrt[pi (0.6575 + Pe)].
+
     Source: Tian & Kennedy, J. Tribol. 116 (1994) 167, doi:10.1115/1.2927035.
     """
     return float(2.0 / np.sqrt(np.pi * (1.273 + peclet))), float(1.22 / np.sqrt(np.pi * (0.6575 + peclet)))

@@ -55,6 +55,9 @@ class SmoothLine:
 def dowson_line(contact: SmoothLine) -> tuple[float, float]:
     """Return central and minimum film thickness [m] of a line contact in the elastic-piezoviscous regime.
 
+    h_c / R = 3.06 U^0.69 G^0.56 W^-0.10, h_min / R = 2.65 U^0.70 G^0.54 W^-0.13, with U = eta_0 u_e / (E' R), G = alpha
+    E', W = w / (E' R), w being the load per length.
+
     Source: central Dowson & Toyoda, Proc. 5th Leeds-Lyon Symposium on Tribology (1979) 60; minimum Dowson, Proc. IMechE
     182 (1967) 151.
     """
@@ -97,6 +100,10 @@ def _moes_numbers(
 
 def moes_line_film(load: float, lubricant: float) -> float:
     """Return the central film thickness in Moes' units, (h / radius) U^-0.5, of Moes' M and L.
+
+    H = {[H_RI^(7/3) + H_EI^(7/3)]^(3 s / 7) + [H_RP^-3.5 + H_EP^-3.5]^(-2 s / 7)}^(1 / s), s = [7 + 8 exp(-2 H_EI /
+    H_RI)] / 5, H_RI = 3 / M, H_EI = 2.621 M^-0.2, H_RP = 1.287 L^(2/3), H_EP = 1.311 M^(-1/8) L^0.75, with M = w / (E'
+    R) U^-0.5, w being the load per length, L = alpha E' U^0.25 and U = 2 eta_0 u_e / (E' R).
 
     Of an incompressible oil whose viscosity rises by Barus' law: `line_contact` finds it within 3 %. The flow of oil is
     the same if it can be compressed, and the film is the thinner by its density.

@@ -76,6 +76,9 @@ class SmoothContact:
 def hamrock_dowson(contact: SmoothContact) -> tuple[float, float]:
     """Return central and minimum film thickness [m].
 
+    h_c / R_x = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 e^(-0.73 k)), h_min / R_x = 3.63 U^0.68 G^0.49 W^-0.073 (1 -
+    e^(-0.68 k)), with U = eta_0 u_e / (E' R_x), G = alpha E', W = load / (E' R_x^2), k = b / a.
+
     Source: Hamrock & Dowson, J. Lubr. Technol. 99 (1977) 264, doi:10.1115/1.3453074. Fitted to circles
     and to ellipses with the long axis across the entrainment; the ellipticity is that of Hertz's contact.
     """
@@ -92,6 +95,9 @@ def hamrock_dowson(contact: SmoothContact) -> tuple[float, float]:
 def chittenden(contact: SmoothContact) -> tuple[float, float]:
     """Return central and minimum film thickness [m] of ellipses with either axis along the entrainment.
 
+    h / R_x = C U^0.68 G^0.49 W^-0.073 {1 - exp[-d (R_y / R_x)^(2/3)]}, with C = 4.31 and d = 1.23 for h_c, 3.68 and
+    0.67 for h_min; U, G and W as in `hamrock_dowson`.
+
     Source: Chittenden, Dowson, Dunn & Taylor, Proc. R. Soc. A 397 (1985) 245 and 271.
     """
     speed = contact.viscosity * contact.entrainment_speed / (contact.reduced_modulus * contact.radius_x)
@@ -107,6 +113,11 @@ def chittenden(contact: SmoothContact) -> tuple[float, float]:
 
 def nijenbanning_venner_moes(contact: SmoothContact) -> float:
     """Return the central film thickness [m], over all regimes from rigid-isoviscous to elastic-piezoviscous.
+
+    H = {[H_RI^1.5 + (H_EI^-4 + H_00^-4)^(-3/8)]^(2 s / 3) + (H_RP^-8 + H_EP^-8)^(-s / 8)}^(1 / s), s = 1.5 [1 +
+    exp(-1.2 H_EI / H_RI)], H = (h / R_x) U^-0.5, U = 2 eta_0 u_e / (E' R_x), M = W / (E' R_x^2) U^-0.75, L = alpha E'
+    U^0.25. Of a circle H_RI = 41.35 M^-2, H_EI = 2.419 M^(-2/15), H_RP = 0.9089 L^(2/3), H_EP = 1.247 M^(-1/12) L^0.75,
+    H_00 = 1.8; factors of ellipses: `_moes_factors`.
 
     Source: Nijenbanning, Venner & Moes, Wear 176 (1994) 217, doi:10.1016/0043-1648(94)90150-3.
     """

@@ -3,7 +3,7 @@
 import math
 
 _SIDE_FLOW = 3.0  # resistance to side flow of circular contacts
-_NEAREST = 1e-9  # of a meniscus before Hertz's contact, in its half width: what lies nearer leaves as much
+_NEAREST = 1e-9  # least distance of a meniscus before Hertz's contact, in its half width
 
 
 def supplied_film(flooded: float, supply: float, density: float = 1.0, resistance: float = _SIDE_FLOW) -> float:

@@ -70,6 +70,10 @@ def line_stress(
 def ellipse_axis_stress(z: ArrayLike, a: float, b: float, pressure_max: float, poisson_ratio: float) -> Array:
     """Return the normal stresses xx, yy, zz [3, ...] [Pa] at depths z [m] below the centre of an elliptical contact.
 
+    sigma_zz / p_H = -B_a - B_b - z (A_a + A_b), sigma_xx / p_H = z A_a - (1 - 2 nu) B_a - 2 nu (B_a + B_b), sigma_yy
+    with b, where for i = a, b, A_i = a b times the integral of ds / [(i^2 + s^2) D] and B_i = a b times that of (s - z)
+    ds / [(i^2 + s^2) D], from z to infinity, D = sqrt[(a^2 + s^2) (b^2 + s^2)].
+
     Half widths a along x, b along y [m]; they are the principal stresses there. By Boussinesq's potentials of Hertz's
     pressure and Carlson's integral R_D; compare Thomas & Hoersch, University of Illinois Bulletin 212, 1930.
     """

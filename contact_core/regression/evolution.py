@@ -25,9 +25,9 @@ from .outputs import outputs_of
 from .surfaces import Means, Tribofilms, added_friction, composite_roughness, mean_cover, regression_film, tribofilms_of
 
 _SAME = 1e-4  # a contact evaluated before the surfaces changed by less, relative, is the contact after it
-_AGREED = 0.05  # of control.change: contacts before and after a step may differ by so much in the surfaces they make
-_TRIAL = 1.0  # s: step from which the speed of the surfaces' change is taken, where there is none that is not short
-_FURTHER = 2.0  # times the last step that was right: one that is tried and too long has taken its parts for nothing
+_AGREED = 0.05  # of control.change: contacts at both ends of a step may change the surfaces differently by so much
+_TRIAL = 1.0  # s: step by which the speed of the surfaces' change is measured if no other step is known
+_FURTHER = 2.0  # longest step over the last one that was right: a step that fails has cost its parts for nothing
 _SHORT = 1e-6  # s: over a shorter step, differences of the surfaces are lost in rounding
 
 

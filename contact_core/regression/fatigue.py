@@ -24,7 +24,7 @@ from .surfaces import Means
 Array = NDArray[np.float64]
 
 _LAG = 0.01  # of the first layer's depth: wear below that waits
-_FEWEST = 1.0 / 64.0  # of a step: classes that fail within it do so together
+_FEWEST = 1.0 / 64.0  # part of a step within which classes that fail count as failing together
 _ALL = 1.0 - 1e-9  # of a class
 UNKNOWN = 1e3  # relative, of damage next to nothing of which is known
 

@@ -25,7 +25,7 @@ _OWN = 3.0  # power of the other body's share of the roughness in what a body me
 
 
 class Rough(NamedTuple):
-    """What the roughness of a contact is to the stresses below it."""
+    """Numbers of a contact's roughness on which the stresses below it depend."""
 
     steepness: float  # q, E* slope / Hertz's largest pressure
     clearance: float  # Z, film of the smooth bodies / composite roughness
@@ -54,6 +54,9 @@ def meetings(speeds: tuple[float, float], lengths: float, shares: tuple[float, f
 class Pressures:
     """Rms deviation of the pressure from Hertz's.
 
+    q/2 is what Persson (J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626) finds for waves pressed flat, q = E*
+    slope / p.
+
     P = (q/2) / (1 + q/Q) / [1 + A Z^B q^D / (1 + slip / S)]: pressed flat by dry contact, the more the less steep, and
     parted by a film unless it slides. q is of the local pressure of smooth bodies, as P.
     """
@@ -79,7 +82,8 @@ class Added:
 
     With p = P over the local pressure of smooth bodies, n what the other body lets a point meet, x = z/l: the spread is
     s = size p^growth exp[-(x/reach)^shape], the mean s [mean + meeting ln(1 + n) + rough ln p] - relief P S, the
-    skewness [skew + skew_rough p + skew_parted (1 - W_c)] exp(-x/skew_reach) / (1 + skew_meeting n).
+    skewness [skew + skew_rough p + skew_parted (1 - W_c)] exp(-x/skew_reach) / (1 + skew_meeting n). The hydrostatic
+    stress is that of smooth bodies.
     """
 
     size: Numbers

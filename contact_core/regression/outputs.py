@@ -21,19 +21,19 @@ from .contact import MeanContact
 from .surfaces import Means, Tribofilms, regression_film
 
 _LAMBDA_CAP = 1e3
-_LONGEST = 10.0  # times the duty: no step need be shorter than that
+_LONGEST = 10.0  # longest suggested step over the duty
 _LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSIDE_FIT)  # numbers are faster to add up
 _BLANK = Outputs()
 # half widths of errors grow: twice beyond the fit, and by so much where a film or wear has changed the heights by this
 # share of the roughness or more, for curves of fresh surfaces; not that of the exposure, which changes little in hours
 _BEYOND, _RUN_IN, _CHANGED = 2.0, 2.0, 0.1
-_UNKNOWN = 1e3  # relative, of wear where next to no solids touch: nobody knows
+_UNKNOWN = 1e3  # relative error of wear where hardly any solids touch: wear is unknown there
 # relative, of rolling resistance: of the formula, where solids carry all, and where no oil is left to the inlet
 _ROLLING, _ROLLING_ON_SOLIDS, _ROLLING_STARVED = 0.33, 0.7, 0.7
 # of roughness, which the formula has not: at lambda 1, falling with its square; at most; at most where a body stands
 # still, whose roughness does not average out. By five shipped scenes at 0.2 to 30 times their speeds
 _ROLLING_ROUGH, _ROLLING_ROUGHEST, _ROLLING_STANDING = 0.35, 0.8, 2.5
-_LOCAL = 1.0  # error of tribofilms that depend on local stresses, of which this level knows the mean
+_LOCAL = 1.0  # relative error of tribofilms that grow by local stress: this level knows the mean stress only
 
 
 def outputs_of(
@@ -208,7 +208,7 @@ def _of_rolling(case: Case, contact: MeanContact) -> float:
 
 
 def _of_history(before: Outputs, films: tuple[float, float], means: Means, now: dict[str, Any]) -> dict[str, float]:
-    """Return the errors of tribofilms and wear: those of what was there and of what came, by their amounts."""
+    """Return the errors of tribofilms and wear: means of those before and of those of the growth, by amounts."""
     worn = max(means[0].wear - before.wear_depth_1 + means[1].wear - before.wear_depth_2, 0.0)
     depth = before.wear_depth_1 + before.wear_depth_2
     was = (before.tribofilm_1, before.error_tribofilm_1), (before.tribofilm_2, before.error_tribofilm_2)
@@ -224,7 +224,7 @@ def _of_history(before: Outputs, films: tuple[float, float], means: Means, now: 
 
 
 def _of_damage(before: Outputs, below: dict[str, float]) -> float:
-    """Return the error of the damages, the larger one: of what was there and of what came, by their amounts."""
+    """Return the larger error of the damages: a mean of that before and of that of the growth, by amounts."""
     was = before.damage_1, before.damage_2
     return max(
         _mean_error(before.error_damage, held, below["error_damage"], abs(below[f"damage_{i}"] - held))

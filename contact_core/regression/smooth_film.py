@@ -69,7 +69,7 @@ def smooth_film(case: Case, further: float) -> SmoothFilm:
 
 
 def _rolling(case: Case, viscosity: float, thinned: float, starved: float) -> tuple[float, float]:
-    """Return the rolling resistance [N] of the smooth bodies, and what supply has left of that of a flooded inlet.
+    """Return the rolling resistance [N] of smooth bodies, and its part of that of a flooded inlet.
 
     `thinned`: film by heat and shear of the inlet over the one without, which is that of a less viscous oil; `starved`:
     film over the flooded one. The inlet is full as far as `reach` says: what lies beyond makes nothing, and the

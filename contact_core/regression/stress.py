@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 _NORMAL = NormalDist()
 _SCORES = np.array([_NORMAL.inv_cdf(share) for share in EDGES - 0.5 * WEIGHTS])  # of the middle of each class
 _LEAST = 0.05  # local pressure over Hertz's largest, at least: beyond the contact there is none
-_BEYOND = 2.0  # half widths beyond the fit, over those within it
+_BEYOND = 2.0  # half widths outside the points of the fit over those within
 
 
 class Stressed(NamedTuple):
@@ -85,7 +85,7 @@ def stressed(case: Case, contact: MeanContact) -> Stressed:
 
 
 def _within(rough: Rough) -> bool:
-    """Return True within the fit; what rolls, or is smoother or better parted than there, counts as within."""
+    """Return True within the fit; contacts that roll, are smoother or have thicker films count as within."""
     return (
         rough.steepness <= FITTED["steepness"][1]
         and rough.clearance >= FITTED["clearance"][0]

@@ -21,7 +21,7 @@ LENGTH_PER_RQ = 40.0  # of roughness, at least: rms slopes stay below 0.05
 LAYS = ("along", "across")  # of the motion
 MOST_BELOW = 0.5  # rms of the waves under `LONGEST` over rq, at most: ends of the intervals in data/finishes.toml
 LONGEST = 4e-6  # m
-_FAR = 4.0  # from the rq of a finish: so far its shorter waves go with rq
+_FAR = 4.0  # largest factor between a surface's rq and that of its finish over which microroughness scales with rq
 
 
 def finishes() -> list[str]:

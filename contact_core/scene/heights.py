@@ -20,7 +20,7 @@ WIDEST = 1e-3  # m between neighbours
 _RMS = (2e-10, 1e-4)  # m: less is smooth, more is no roughness
 _SLOPE = (1e-4, 1.0)  # assumed: a thousandfold error of unit takes slopes of 1e-3 to 0.1 out of it
 _STRETCH = 0.02  # of a tile, at most, to fit a whole number of them
-_LEVEL = 0.02  # of the peak to valley: rms deviation of an edge that counts as level
+_LEVEL = 0.02  # rms deviation of a level edge, at most, over peak to valley
 _LEAST, _MOST = 4, 2**14  # heights along an edge of the patch
 
 

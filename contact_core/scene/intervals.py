@@ -24,7 +24,7 @@ from .units import parse
 Ends = tuple[Any, Any]  # least and largest value, as in a scene
 _LONGEST = 4e-6  # m: of waves below the grid where a scene has none
 _AND = ", "
-_ROUNDED = 0.02  # of an interval: so far ends are rounded
+_ROUNDED = 0.02  # part of an interval by which its ends may be rounded
 _GIVEN = "operation."  # keys of the duty: nobody assumes them
 
 

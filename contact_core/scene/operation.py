@@ -37,7 +37,7 @@ class OperatingPoint:
 
     @property
     def bodies(self) -> tuple[float, float]:
-        """Bulk temperatures [K]; the oil's where nothing else is said."""
+        """Bulk temperatures [K]; the oil's where none are given."""
         one, two = self.body_temperature_1, self.body_temperature_2
         return self.temperature if one is None else one, self.temperature if two is None else two
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 
 class Meant(NamedTuple):
-    """What a name stands for."""
+    """The meaning of another name of a key."""
 
     sentence: str
     keys: tuple[str, ...]  # of the same table, that the sentence asks for

@@ -16,7 +16,7 @@ from .heights import Heights
 
 Array = NDArray[np.float64]
 
-SEEDS = 2**31  # of a surface: what FMI's integers can tell apart
+SEEDS = 2**31  # number of seeds of a surface: the integers of FMI
 
 
 class RoughBody:

@@ -18,7 +18,7 @@ class RangeFlag(IntFlag):
     text: str
 
     def __new__(cls, value: int, text: str = "") -> "RangeFlag":
-        """Keep the sentence beside the number."""
+        """Keep the sentence with the number."""
         flag = int.__new__(cls, value)
         flag._value_, flag.text = value, text
         return flag

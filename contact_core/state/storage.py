@@ -141,6 +141,6 @@ class Reader:
         return array.reshape(shape).copy()  # a copy, because the bytes need not be aligned
 
     def close(self) -> None:
-        """Raise ValueError if there is more than what was read."""
+        """Raise ValueError if bytes are left over."""
         if self._at != self._stop or self._end != len(self._data):
             raise ValueError("it has another length")

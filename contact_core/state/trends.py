@@ -33,7 +33,7 @@ _FRICTION = np.isin(
     ["friction_force", "friction_solid", "friction_fluid", "spin_torque", "power_loss", "heat_flow_1", "heat_flow_2"],
 )
 _MEMORY_OF_SPREAD = 0.1
-_NEAREST = 0.5  # of what is seen: no slope carries a level nearer to zero, unless it has been there
+_NEAREST = 0.5  # part of what is seen: no slope carries a level nearer to zero, unless it has been there
 _UNKNOWN = 0.05  # error of time steps, relative, while fewer than two blocks say nothing of a drift
 
 

@@ -15,8 +15,8 @@ from .patches import bare_heights, solid_of, track_rows
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_WHOLE = np.nextafter(1.0, 0.0)  # damage of what has not yet failed, at most
-_BROKEN = 0.5  # share of its points from which on a class has broken out
+_WHOLE = np.nextafter(1.0, 0.0)  # largest damage of material that has not failed
+_BROKEN = 0.5  # share of the points of a class that have failed above which the class has broken out
 _PARTS = 4  # of |y| < b, of contacts whose pressure falls off along y
 
 

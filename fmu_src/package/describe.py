@@ -25,7 +25,7 @@ INITIAL = {"parameter": "exact", "output": "calculated"}  # other causalities ha
 
 @dataclass(frozen=True)
 class Model:
-    """Contents of a model description beside variables."""
+    """Contents of a model description except its variables."""
 
     name: str
     guid: str

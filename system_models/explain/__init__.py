@@ -7,6 +7,7 @@
     wording     values in units people read
     terminal    an explanation as text
     collection  the equations of every law, film and shape, as a page of docs
+    formulas    those of closed forms and machines, from docstrings
     latex       equations as LaTeX
 
 Laws carry their equations, symbols and sources themselves; comments in files carry the sources of numbers

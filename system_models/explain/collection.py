@@ -1,4 +1,4 @@
-"""The equations of every law, level and shape as a page of Markdown.
+"""The equations of all laws, levels and shapes, and those of closed forms and machines, as a page.
 
 python -m system_models.explain.collection > docs/equations.md
 """
@@ -20,6 +20,7 @@ from contact_core.scene.records import Lubricant
 from contact_core.shapes import GEOMETRIES
 from fmu_src.html.markup import inline
 
+from .formulas import sections
 from .latex import latex
 
 _DOI = re.compile(r"doi:(10\.\d+/[^\s,;]+)")
@@ -44,13 +45,16 @@ _SLOTS = {
     "profile": ("Profiles of rollers", "geometry.profile"),
 }
 _OF_SHAPE = ("deformation", "load_balance", "smooth_film", "rolling")
-_INTRODUCTION = """# Equations of the laws
+_INTRODUCTION = """# Equations
 
 Every law that a scene may choose: its equations, symbols, units and source, and what a contact does without where it
-is off. The page is written from the laws themselves (`python -m system_models.explain.collection > docs/equations.md`),
-and tests hold the laws against the equations as they stand here. `tribofmu explain SCENE` shows those of one scene,
-with its numbers. Equations of outputs, methods and machines are in [physics](physics.md); symbols without a field are
-in the table at the [end](#symbols-of-all-laws). All is in SI.
+is off. Behind them stand formulas of [Hertz's contacts](#hertzs-contacts), [films](#films-of-smooth-bodies),
+[bearings](#ball-bearings), [gears](#gears), [cams](#cams) and [other parts](#parts-of-machines), as the functions that
+compute them state them.
+The page is written from the code (`python -m system_models.explain.collection > docs/equations.md`), and tests hold the
+laws against the equations as they stand here. `tribofmu explain SCENE` shows those of one scene, with its numbers. What
+goes beyond laws, methods and outputs, is in [physics](physics.md); symbols without a field are in the table at the
+[end](#symbols-of-all-laws), those of several pages in the [glossary](glossary.md#symbols). All is in SI.
 """
 
 
@@ -68,6 +72,7 @@ def page() -> str:
         lines += [f"## {title}: `{key}.model`", ""]
         for law in laws:
             lines += _law(law)
+    lines += sections()
     lines += ["## Symbols of all laws", "", "| symbol | unit | meaning |", "|---|---|---|"]
     lines += [f"| {inline(symbol)} | {unit or '1'} | {text} |" for symbol, (unit, text) in COMMON.items()]
     return "\n".join(lines) + "\n"

@@ -51,7 +51,7 @@ class Absent:
 
 @dataclass(frozen=True)
 class Explanation:
-    """All that is said of a scene."""
+    """The explanation of a scene."""
 
     name: str
     description: str

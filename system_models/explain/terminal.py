@@ -11,7 +11,7 @@ from .model import Absent, Explanation, Part, Section, Value
 
 NARROWEST, WIDEST = 80, 110  # columns
 _LONG = 25  # letters of a value that a column has room for
-_MANY = 12  # defaults of one law that are told in a few lines
+_MANY = 12  # most defaults of one law that are printed in full
 Told = dict[tuple[str, ...], str]  # parts whose equations have been told, by these
 
 _SUPERSCRIPTS = str.maketrans("0123456789-−+", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻⁺")

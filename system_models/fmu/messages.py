@@ -30,7 +30,7 @@ def pass_on(name: str, status: int, message: bytes | None) -> None:
 
 
 def cause(name: str, says: str = "It says") -> str:
-    """Return what an FMU has said last of something wrong, its first line, as a sentence; or that it gave none."""
+    """Return the first line of an FMU's last message of an error as a sentence; or a sentence that it gave none."""
     if name not in said:
         return "It gave no message; ask who made it."
     return f"{says}: {said[name].strip().splitlines()[0].rstrip('.')}."

@@ -147,7 +147,7 @@ def _times(step: Step) -> list[float]:
 
 
 def faster_of(step: Step) -> int:
-    """Return the body that a positive slide-to-roll ratio makes faster, by ball and disc speeds; 0: not told."""
+    """Return the body that a positive slide-to-roll ratio makes faster, by ball and disc speeds; 0: unknown."""
     name = "srr" if step.has("srr") else "sliding_speed"
     if not (step.has("ball_speed") and step.has("disc_speed") and step.has(name)):
         return 0

@@ -15,7 +15,7 @@ from contact_core.scene import units
 from . import text_heights
 from .image import LEAST, HeightImage
 
-_TOLD = ("instrument", "acquisition_time", "software", "comment")  # of what a file says beside its heights
+_TOLD = ("instrument", "acquisition_time", "software", "comment")  # fields of a file that are kept with its heights
 _LONGEST = 200  # characters of a remark
 _ARRAYS = ("npy", "npz", "mat", "h5")  # arrays alone: as files of heights of scenes, with rows along x
 _ANGSTROM = ("\u00c5", "\u212b", "A", "angstrom")
@@ -125,7 +125,10 @@ def _length(path: Path, unit: str) -> float:
 def _asked(
     path: Path, own_unit: str | None, own_size: Any, unit: str | None, size: tuple[float, float] | None
 ) -> dict[str, Any]:
-    """Return what the reader is told beside the file. Raises ContactError for what is told twice or not at all."""
+    """Return unit and size for the reader, as far as the file lacks them.
+
+    Raises ContactError if one of them is given twice, by file and option, or not at all.
+    """
     asked: dict[str, Any] = {}
     if own_unit is None and unit is None:
         raise ContactError(f"'{path}' does not say in which unit it is. Give --unit, such as --unit um.")
@@ -144,7 +147,7 @@ def _asked(
 
 
 def _ascii(unit: str) -> str:
-    """Return a unit with the one of the two letters mu that is known here."""
+    """Return a unit with u in place of either of the two letters mu."""
     return unit.replace("\u03bc", "u").replace("\u00b5", "u")
 
 

@@ -22,14 +22,14 @@ _FULL = 0.5  # share of a lattice's points that are there, at least: points all 
 
 
 class TextHeights(NamedTuple):
-    """Heights [ny, nx] in the file's unit, nan where there is none, and spacing along y and x; None: not said."""
+    """Heights [ny, nx] in the file's unit, nan where there is none, and spacing along y and x; None: not given."""
 
     heights: Array
     spacing: tuple[float, float] | None
 
 
 def read(content: bytes) -> TextHeights | None:
-    """Return the heights in text; None if it has none that are told without doubt."""
+    """Return the heights in text; None if it is not clear which numbers are heights."""
     rows = _rows(content.decode("utf-8-sig", errors="replace"))
     if len(rows) < 2 or len({len(row) for row in rows}) != 1:
         return None

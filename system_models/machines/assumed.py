@@ -41,7 +41,7 @@ _SETTLED = 1e9  # s, after which a network of heat has settled
 _NEAR, _MOST_TURNS = 0.05, 100  # K between temperatures and what follows from them; turns to get there
 _SHARE = 0.5  # of the way there in a turn: hotter oil makes less heat, all the way would overshoot
 _MUCH, _MOST = 0.3, 3  # share of a half width from which on its cause is named, and how many are
-_LEAST = 1e-3  # half widths that are told: relative, in K, or of shares
+_LEAST = 1e-3  # smallest half widths that are printed: relative, in K, or of shares
 _NO_WEAR = 1e-18  # m/s: a rate below 0.03 nm in a year is none, by whatever factor it is not known
 _NONE = "-"
 _OUTPUTS = tuple(output for output in OUTPUTS if output != TRIBOFILM)  # of contacts, on new surfaces

@@ -17,7 +17,7 @@ from ..store.results import ERROR
 from .assembly import Assembly
 
 ATTRIBUTE = "contact_errors_json"  # of a machine's result: half widths by contact, output and cause
-_CURVES = "curves"  # the one cause of levels that solve nothing
+_CURVES = "curves"  # the only cause of errors of levels without solutions
 
 
 def of_contacts(assembly: Assembly, dataset: xr.Dataset, checkpoint: Checkpoint | None) -> dict[str, Causes]:

@@ -23,7 +23,7 @@ _STATED = ".error_"  # in names of outputs: errors that a contact states
 _SAFETY = 3.0  # of two grids: Roache, J. Fluids Eng. 116 (1994) 405; measured: benchmarks/machines/tolerance.py
 _SHOWN = 5
 _SMALL = 0.01  # of the nominal: smaller values count as zero
-_FIRST = 3  # steps after a change of the duty, or beside a jump of an output: where in a step it lies is no error
+_FIRST = 3  # steps after a change of the duty or next to a jump of an output, where a difference is no error
 _JUMP = 0.1  # of its largest value: an output that changes by more in a step is not resolved there
 _ALONE = 3.0  # times the changes in the steps before and after: a smaller jump
 
@@ -47,7 +47,11 @@ def _after_changes(times: NDArray[np.float64], schedule: Schedule) -> NDArray[np
 
 
 def stated(dataset: xr.Dataset, coarse: xr.Dataset, schedule: Schedule) -> xr.Dataset:
-    """Return the result with the error of each Real as its attribute."""
+    """Return the result with the error of each Real as its attribute.
+
+    error_coupling = max(3 max |y(h) - y(2 h)|, largest isolated jump); jumps above 10 % of the largest value are
+    excluded. The factor 3 is that for two grids: Roache 1994.
+    """
     found = dataset.copy()
     own = np.isin(dataset["time"].values[1:], settled(dataset, schedule, 2 * _FIRST))
     for name, error in differences(dataset, coarse, settled(coarse, schedule)).items():

@@ -135,7 +135,7 @@ def assemble(machine: Machine) -> Assembly:
 
 
 def _intervals(table: Mapping[str, Any], design: Design) -> tuple[Interval, ...]:
-    """Return what the machine and the scene of its contacts assume. Raises SceneError for what cannot be."""
+    """Return the intervals that the machine and its contacts' scene assume. Raises SceneError for impossible ones."""
     own = {each["key"]: Interval(**each) for each in listed(table)}
     theirs = applicable(next(iter(design.contacts.values())).scene)
     of_contacts = [replace(each, key=", ".join(f"contact.{key}" for key in each.keys)) for each in theirs]

@@ -36,7 +36,7 @@ def lost(assembly: Assembly, dataset: xr.Dataset) -> float:
 
 
 def _losses(assembly: Assembly, dataset: xr.Dataset) -> list[tuple[str, np.ndarray]]:
-    """Return what each contact loses in each step by sliding and by rolling [J], of all that it stands for.
+    """Return the energy [J] that each contact loses in each step by sliding and by rolling, for all that it represents.
 
     With the column of the error of either. Records without speeds, or from before rolling had an error, lack rolling.
     """

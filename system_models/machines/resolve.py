@@ -167,7 +167,7 @@ def place_at(case: Case, fast: Outputs) -> Place:
 
 
 def _spread(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[str]:
-    """Return the contacts that the run has at the regression level: first `count` far apart, then those beside them."""
+    """Return the contacts at the regression level: first `count` that are far apart, then their neighbours."""
     level = 1 + LEVELS.index(FAST)
     names = [name for name in sorted(assembly.contacts) if (dataset[f"{name}.fidelity_used"].values == level).all()]
     stride = max(1, len(names) // count)

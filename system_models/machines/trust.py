@@ -24,7 +24,7 @@ from .registry import kinds
 from .timeline import Timeline
 
 _MOST_ROWS = 100  # of a duty that are looked at
-_ALIKE = 0.99  # of the largest load: rows from there on count as those of the largest
+_ALIKE = 0.99  # rows with at least this part of the largest load count as rows of the largest load
 _POINT = {*OperatingPoint.__dataclass_fields__}
 
 

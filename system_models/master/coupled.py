@@ -117,7 +117,7 @@ class Coupled:
             return instance.get(port.variable)
 
     def set_scheduled(self, times: Callable[[float], bool]) -> bool:
-        """Set the inputs whose schedule has values at such times, to the last of them, and say if there are any."""
+        """Set inputs to their last scheduled value at such times; return True if there is one."""
         due = {name: value for name, steps in self.system.schedule.items() for at, value in steps if times(at)}
         for name, value in due.items():
             self.set(name, value)
@@ -256,7 +256,7 @@ class Coupled:
             )
 
     def _to_end(self, instance: Instance, inputs: Array) -> None:
-        """Move the outputs of an FMU from the inputs that it received to those at the end of the step."""
+        """Correct the outputs of an FMU from the inputs that it received to those at the end of the step."""
         change = np.zeros(len(self.wiring.inputs))
         if not instance.interpolates:
             change[self.wiring.input_of[instance.name]] = inputs - instance.inputs.values
@@ -359,7 +359,7 @@ class Coupled:
         self._held = memory["held"]
 
     def may_lag(self, place: int) -> bool:
-        """Return True if an output may belong to inputs that were held, and not have seen those of the end."""
+        """Return True if an output may still belong to the held inputs, not to those at the end of the step."""
         port = self.system.port(self.wiring.outputs[place])
         direct = port.model.dependencies.get(port.variable.name, True)
         return not direct and not self.instances[port.model.name].interpolates

@@ -169,7 +169,7 @@ class _Loop:
 
 
 class _UndefinedError(CouplingError):
-    """Something cannot be worked out for these inputs; for others it may."""
+    """An output is undefined for these inputs, and may be defined for others."""
 
 
 @contextmanager

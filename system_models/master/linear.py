@@ -32,7 +32,7 @@ class Correction:
         np.add.at(outputs, self._of, outputs[self._slope] * change[self._by])
 
     def settle(self, outputs: Array, held: Array) -> None:
-        """Move the outputs, which belong to the inputs `held`, to those that go with all of them."""
+        """Correct the outputs, which belong to the inputs `held`, for the present inputs."""
         wiring = self._wiring
         slopes = np.zeros((len(outputs), len(held)))
         np.add.at(slopes, (self._of, self._by), outputs[self._slope])

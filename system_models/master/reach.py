@@ -1,4 +1,4 @@
-"""On which connections the options of accuracy act: one that acts on none is refused, what others miss is told."""
+"""On which connections the options of accuracy act: else it is refused; what it misses is named."""
 
 import logging
 from collections.abc import Callable, Iterator
@@ -14,7 +14,7 @@ _NAMED = 3  # connections that are named in full
 
 
 class _Option(NamedTuple):
-    """An option as it was given, what it does to which connections, and what helps the others."""
+    """An option as given, the connections that it acts on, and advice for the others."""
 
     given: str
     does: str

@@ -225,7 +225,7 @@ def _attributes(coupled: Coupled, stepper: Stepper) -> dict[str, Any]:
 
 
 def _verdicts(system: System, dataset: xr.Dataset) -> dict[str, Any]:
-    """Return what FMUs say of their answers, as attributes, and warn of those that are invalid."""
+    """Return how many answers of the FMUs are invalid, as attributes, and warn of them."""
     invalid = {name: ~dataset[column].values.astype(bool) for name, column in system.verdicts.items()}
     by = ", ".join(name for name, rows in invalid.items() if rows.any())
     rows = np.logical_or.reduce([np.zeros(dataset.sizes["time"], dtype=bool), *invalid.values()])

@@ -176,7 +176,7 @@ class System:
 
     @property
     def verdicts(self) -> dict[str, str]:
-        """The output of each FMU, where it has one, that says whether it could use its inputs."""
+        """The output `valid` of each FMU that has one: whether it could use its inputs."""
         return {name: f"{name}.{m.verdict.name}" for name, m in self.models.items() if m.verdict is not None}
 
     def left_out(self) -> list[str]:

@@ -27,10 +27,12 @@ class _Ends(NamedTuple):
 class Wiring:
     """The coupled Real variables of a system.
 
-    outputs, inputs: the names of all of them; output_of, input_of: where those of an FMU stand; source, factor and
-    offset [inputs]: the source of an input; sampled [inputs]: it holds between communication points; coupled: the
-    places of the outputs that set an input, also at events alone; beside: where the inputs of the FMU of each of these
-    stand.
+    outputs, inputs: names of all of them
+    output_of, input_of: slice of the outputs and inputs that belong to an FMU
+    source, factor, offset [inputs]: number of the output that sets an input, and the conversion of its unit
+    sampled [inputs]: True if the input holds its value between communication points
+    coupled: numbers of the outputs that set an input, if only at events
+    beside [coupled]: slice of the inputs of the FMU that has this output
     """
 
     def __init__(self, system: System, instances: Mapping[str, Instance]) -> None:

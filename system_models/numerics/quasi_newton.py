@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 Differences = tuple[Array, Array]  # of v and of r [count, size] each
 
 _KEPT = 20  # differences at most, of accepted steps
-_DEPENDENT = 1e-4  # part of a difference outside of those before it, below which it is left out
+_DEPENDENT = 1e-4  # a difference is left out if a smaller part of it is independent of those before
 _CERTAIN = 0.1  # part of the residual outside of all differences, below which the model counts as complete
 _OPPOSITE = -0.7  # cosine between residuals of two points that enclose a solution
 _GAIN = 0.5  # decrease of the residual that makes it needless to search between them

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 
 _WORSE = 2.0  # growth of the residual, without change of sign, that takes a step back
 _BACK = 0.25  # part of such a step that is tried instead
-_FARTHER = 8.0  # times the step before: the longest one near the solution of the last communication step
+_FARTHER = 8.0  # longest step over the step before, near the solution of the last communication step
 _GAIN = 0.5  # decrease of the residual on one side of the root below which a step gains too little
-_FLATTEST = 1e-3  # slope of the residual: an unbounded step is at most so many residuals long
+_FLATTEST = 1e-3  # least slope of the residual: an unbounded step is at most the residual over it
 _PROBE = 1e3  # longest probing step, in allowed errors
 
 

@@ -11,7 +11,7 @@ from .part import Input, Output, Part, State, Values
 
 @dataclass(frozen=True)
 class Brake(Part):
-    """T = M tanh(w / w_0), T_r M' = M_setpoint - M: against the motion, and continuous through standstill."""
+    """T = M tanh(omega / omega_0), T_r M' = M_setpoint - M: against the motion, and continuous through standstill."""
 
     name: ClassVar[str] = "Brake"
     text: ClassVar[str] = "Brake whose torque follows a setpoint and opposes the motion"

@@ -1,4 +1,7 @@
-"""x' = A x + B u under held u, over any step: x(h) = exp(A h) x(0) + integral of exp(A s) ds B u."""
+"""x' = A x + B u under held u, over any step: x(h) = exp(A h) x(0) + integral of exp(A s) ds B u.
+
+Source: Van Loan, IEEE Trans. Autom. Control 23 (1978) 395, doi:10.1109/TAC.1978.1101743.
+"""
 
 from collections.abc import Sequence
 from functools import lru_cache
@@ -24,10 +27,7 @@ def advance(
 
 @lru_cache(maxsize=64)
 def _propagators(matrix: Matrix, entry: Matrix, step: float) -> tuple[Array, Array]:
-    """Return exp(A h) and its integral times B: blocks of the exponential of [[A, B], [0, 0]] h.
-
-    Van Loan, C.F., IEEE Trans. Autom. Control 23 (1978) 395, doi 10.1109/TAC.1978.1101743
-    """
+    """Return exp(A h) and its integral times B: blocks of the exponential of [[A, B], [0, 0]] h."""
     size = len(matrix)
     found = exponential(_block(matrix, entry) * step)
     return found[:size, :size], found[:size, size:]

@@ -13,7 +13,7 @@ from contact_core.quantities import Quantity, Role, parameter
 MACHINES = "tribofmu.machines"  # group of entry points: machines of other packages
 
 Values = Mapping[str, float]  # by name, SI
-State = tuple[float, ...]  # all that the next answer depends on beside parameters and inputs
+State = tuple[float, ...]  # all that the next answer depends on, except parameters and inputs
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Part(ABC):
 
     @property
     def at_start(self) -> tuple[str, ...]:
-        """Inputs that `initial` looks at, on which the first outputs depend beside those that are direct."""
+        """Inputs that `initial` uses: the outputs at the start depend on them, as on those in `direct`."""
         return ()
 
     def check(self) -> None:  # noqa: B027 (few have anything to check)

@@ -12,10 +12,10 @@ from .part import Input, Output, Part, State, Values
 
 @dataclass(frozen=True)
 class Shaft(Part):
-    """J w' = T_drive + k (w_drive - w) - T_resisting - c w.
+    """J omega' = T_drive + k (omega_drive - omega) - T_resisting - c omega.
 
     A drive gives a torque, or a speed to the other end of a slipping coupling k; with a speed, any step is stable. At
-    w = 0 the resisting torque only holds: the shaft stands until the drive is stronger, so resistance cannot turn
+    omega = 0 the resisting torque only holds: the shaft stands until the drive is stronger, so resistance cannot turn
     it round, however long the step.
     """
 

@@ -11,10 +11,10 @@ from .part import Input, Output, Part, State, Values
 
 @dataclass(frozen=True)
 class Spindle(Part):
-    """Body 1 of a contact: J w' = T + R (F - F_r), T = J b (y - 2 w + w_s), y' = b (w_s - w).
+    """Body 1 of a contact: J omega' = T + R (F - F_r), T = J b (y - 2 omega + omega_s), y' = b (omega_s - omega).
 
-    The servo's gains make both poles -b: the speed follows its setpoint as w' = b (w_s - w) would, and a force moves it
-    by R F / (J b) exp(-1) at most, after the time 1/b, and not for long.
+    The servo's gains make both poles -b: the speed follows its setpoint as omega' = b (omega_s - omega) would, and
+    a force moves it by R F / (J b) exp(-1) at most, after the time 1/b, and not for long.
     """
 
     name: ClassVar[str] = "Spindle"

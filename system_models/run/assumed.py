@@ -34,7 +34,7 @@ def attribute(assumed: Sequence[Assumed]) -> dict[str, str]:
 
 
 def stored(attributes: Mapping[str, Any]) -> list[Assumed] | None:
-    """Return those of a result by its attributes; None if an older version has made it, which does not say."""
+    """Return the assumptions of a result from its attributes; None if an older version made it, without them."""
     text = attributes.get(ATTRIBUTE)
     return None if text is None else [Assumed(*each) for each in json.loads(text)]
 

@@ -82,7 +82,7 @@ def run(
 
 
 def _observer(end: float, fields: Fields | None, at_end: Callable[[bytes], None] | None) -> Observer | None:
-    """Return what looks at the contact's FMU at the rows: the fields, and at time `end` [s] what takes its state."""
+    """Return the observer of the contact's FMU: it keeps the fields at the rows, and at time `end` [s] the state."""
     if at_end is None:
         return fields.observe if fields else None
 

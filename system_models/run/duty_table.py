@@ -57,7 +57,7 @@ def refuse_hidden(path: Path, signals: Mapping[str, Quantity], table: str, chang
 def rows_of(
     path: Path, signals: Mapping[str, Quantity], kind: str = "duty", gaps: Collection[str] = ()
 ) -> Iterator[tuple[str, Row]]:
-    """Yield each row with words for where it stands; times may be in any order.
+    """Yield each row with its place in words, for messages; times may be in any order.
 
     `kind` of file, for messages; cells of the columns `gaps` may be empty, and have no value then.
     """

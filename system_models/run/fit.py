@@ -25,7 +25,7 @@ from .fit_model import Constant, Model, Places, Points
 
 FAST, SLOW = "regression", "deterministic"
 _STARTS = 8  # sets of constants tried for each constant
-_LOCALLY = 2  # of these are searched from, beside the scene's own
+_LOCALLY = 2  # of these sets a search starts, besides the scene's own
 _AGREED = 0.3  # standard deviations by which fitted curves and the deterministic level may differ
 _MOST = 6  # runs of the deterministic level
 _FLAT = 0.01  # of a quantity's largest value: below, levels differ by a sum, not by a factor
@@ -144,7 +144,7 @@ def _as_it_is(curve: Curve) -> Curve:
 def _through(
     slow: Model, problem: Problem, found: Estimate, everywhere: Points, progress: Callable[[str], None]
 ) -> tuple[Estimate, float, Amend]:
-    """Return the fit at the deterministic level, how far off it is, and what makes its curves of those of the other."""
+    """Return the fit at the deterministic level, its deviation, what turns the other level's curves into its own."""
     count, places = len(problem.measured), everywhere.places
     slow_everywhere = Points(slow, *places)
     best: tuple[float, Estimate, float, Amend] | None = None

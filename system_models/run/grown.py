@@ -8,8 +8,8 @@ from contact_core.scene import Case, Scene
 from ..charts.half_widths import with_error
 from .flags import operating_point
 
-_TOUCH, _THIN = 1e-3, 1e-10  # share of the load that solids carry where they touch; m, of a film that is told
-_MOST = 0.5  # share of a film that has grown where they do not, from which on it is the oil's
+_TOUCH, _THIN = 1e-3, 1e-10  # least share of the load of solids that touch; m: least film that is printed
+_MOST = 0.5  # share of a film grown without contact above which the film is due to the oil
 
 
 def by_oil(scene: Scene, rows: xr.Dataset) -> str:

@@ -33,14 +33,14 @@ Array = NDArray[np.float64]
 
 SEED = 1  # of the histories
 _GROUP = 4  # histories on the coarser grid, the first of which is solved on the scene's as well
-_HELD = {True: 4 * _GROUP, False: 5}  # every so many numbers one is held back: with a coarser grid, without one
-_ROUND = 10  # histories after which the map is made anew
+_HELD = {True: 4 * _GROUP, False: 5}  # one history in so many judges the map: if there is a coarser grid, if not
+_ROUND = 10  # new histories after which the map is fitted again
 _MOST = 100_000
 
 
 @dataclass(frozen=True)
 class Order:
-    """What is asked for."""
+    """The request for a map."""
 
     scene: Scene
     ranges: Ranges
@@ -69,7 +69,7 @@ class Judged:
 
 @dataclass(frozen=True)
 class Built:
-    """A map and what it is made of."""
+    """A map, its histories and how good it is."""
 
     order: Order
     chart: Map
@@ -85,7 +85,7 @@ class Built:
 
     @property
     def held(self) -> list[History]:
-        """Those that judge it."""
+        """Histories that the map is judged by, and not fitted to."""
         return [history for history in self.histories if is_held(self.order, history.number)]
 
 
@@ -94,7 +94,7 @@ Progress = Callable[[int, tuple[float, ...] | None], None]
 
 
 def build(order: Order, file: Path, progress: Progress = lambda histories, halves: None) -> Built:
-    """Return the map of a scene; histories that `file` has are not solved again, new ones are added to it.
+    """Return the map of a scene; histories in `file` are not solved again, new histories are added to it.
 
     `progress` is called with the number of histories and the half widths reached, None before there are any. Raises
     ContactError if too few can be solved in the time.
@@ -126,7 +126,7 @@ def build(order: Order, file: Path, progress: Progress = lambda histories, halve
 
 
 def tasks(order: Order, known: Container[Task] | None = None) -> Iterator[Task]:
-    """Yield what is to be solved, in its order; of `known` ones alone."""
+    """Yield the histories to be solved, in their order; with `known` those that are known alone."""
     two = coarser(order.scene) is not None
     for number in range(_MOST):
         for fine in [True] * (not two or number % _GROUP == 0) + [False] * two:
@@ -135,7 +135,7 @@ def tasks(order: Order, known: Container[Task] | None = None) -> Iterator[Task]:
 
 
 def _with_none_first(results: Iterator[History]) -> Generator[History | None]:
-    """Yield None, then the results: what is known already may do."""
+    """Yield None, then the results: the histories that are known already may be enough."""
     yield None
     yield from results
 
@@ -206,7 +206,7 @@ def _head(order: Order) -> dict[str, object]:
 
 
 def read(order: Order, file: Path) -> dict[Task, History]:
-    """Return the histories of a file by what was to be solved; without one it is begun.
+    """Return the histories of a file by their tasks; without a file, begin one.
 
     A last line that a kill has cut is left out. Raises ContactError if they are of another scene or other ranges.
     """

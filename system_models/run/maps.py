@@ -118,7 +118,7 @@ def _unpacked(record: bytes) -> dict[str, NDArray[Any]]:
 
 
 def _wide(values: NDArray[Any], rows: int, before: Any) -> NDArray[Any]:
-    """Return a map or profile with so many rows; `before` stands in those that it did not have."""
+    """Return a map or profile with so many rows; new rows are filled with `before`."""
     if not values.ndim or values.shape[0] == rows:
         return values
     more = (rows - values.shape[0]) // 2

@@ -22,7 +22,7 @@ COLUMNS = (
     Column("A_c", "", "contact_area_ratio", 1.0, 3),
     Column("W_c", "", "contact_load_ratio", 1.0, 3),
 )
-_BELOW = (  # of runs with stresses; those of damage where there is any
+_BELOW = (  # outputs of runs with stresses; those of damage where there is any
     Column("von Mises", "GPa", "von_mises_max", 1e-9, 3),
     Column("at depth", "um", "von_mises_depth", 1e6, 1),
     Column("damage 1", "", "damage_1", 1.0, 4),

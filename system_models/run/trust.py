@@ -24,8 +24,8 @@ _MIXED, _FULL = 1.0, 3.0  # lambda of handbooks, from which on lubrication is ca
 _DECIDES = 2.0  # lambda below which roughness below the grid decides on friction
 _FEW = 8.0  # nodes across the contact, below which RangeFlag.FEW_NODES is raised
 _WIDE, _WAVES = 5.0, 8.0  # half widths of the contact and correlation lengths, that a domain should have
-_MISSING, _LEFT = 0.06, 0.02  # of the film: missing from which on a line says so, and left by its way out
-_ROUND = 0.01  # relative difference of half widths, up to which one is told
+_MISSING, _LEFT = 0.06, 0.02  # missing parts of the film: more than the first is printed, the way out leaves the second
+_ROUND = 0.01  # relative difference of the contact's half widths up to which one is printed
 _SHORT, _LONG = 60, 120  # columns of text
 
 _LEGEND = {  # heading of the table: its meaning
@@ -137,7 +137,7 @@ def _flooded(cases: Sequence[Case]) -> float:
 
 
 def _below_the_grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
-    """Return a line on roughness below the grid that a scene does not give, and what that is worth, where it counts."""
+    """Return a line on roughness below the grid that a scene does not give, with its effect, where it matters."""
     bare = [f"surface_{i}" for i, s in enumerate((scene.surface_1, scene.surface_2), 1) if _lacks_layer(s)]
     rough = math.hypot(*(side.surface.rms for side in cases[0].sides))
     thinnest = min(cases, key=lambda case: case.conventional_film)
@@ -171,7 +171,7 @@ def _grid(scene: Scene, cases: Sequence[Case]) -> list[str]:
 
 
 def legend(halves: str = "error (95 %), and in brackets the half width by what is assumed") -> list[str]:
-    """Return what the columns of the table are; halves: what stands behind +-."""
+    """Return what the columns of the table are; halves: the half width behind +-."""
     columns = "; ".join(f"{heading}: {meaning}" for heading, meaning in _LEGEND.items())
     return wrapped(f"Columns: {columns}; +-: {halves}.")
 

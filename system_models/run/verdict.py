@@ -29,7 +29,7 @@ _CAUSES = {
     "curves": "the fitted curves",
     "inlet": "a domain that cuts the inlet off",
 }
-_LEAST = 1e-3  # half width of a share that is told
+_LEAST = 1e-3  # smallest half width of a share that is printed as a number
 _POOR, _UNKNOWN = 0.35, 1.0  # half widths from which on a quantity is known roughly, and hardly at all
 
 
@@ -56,7 +56,7 @@ class Known(NamedTuple):
 
 
 def sentence(scene: Scene, dataset: xr.Dataset, errors: Mapping[str, Error]) -> str:
-    """Return what is known how well at the end of a contact's run, and what would make it surer.
+    """Return a sentence: how well each output is known at the end of a contact's run, and what would make it surer.
 
     `errors` are those of the last state by `contact_core.uncertainty`; empty if they are not known.
     """

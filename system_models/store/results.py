@@ -112,9 +112,9 @@ def write(
 ) -> list[Path]:
     """Write `name`.nc and `name`.csv into an existing folder and return their paths.
 
-    A name that netCDF cannot take is replaced in its file, where the attribute NAME has it; `read` gives it back. The
-    CSV has a row for each point of the dataset's dimensions; variables constant along one of them are repeated.
-    `maps` go into the netCDF only; `table` replaces the dataset in the CSV.
+    A name that netCDF cannot take is replaced by a short one; the attribute NAME of the variable keeps the full name,
+    and `read` gives it back. The CSV has a row for each point of the dataset's dimensions; variables that are constant
+    along a dimension are repeated. `maps` go into the netCDF file only; `table` replaces the dataset in the CSV.
     """
     netcdf, text = folder / f"{name}.nc", folder / f"{name}.csv"
     rows = dataset if table is None else table

@@ -22,7 +22,7 @@ from ..run.workers import done_by, workers
 from ..store.results import to_dataset, with_half_widths
 from .plan import Factor, Plan, Point
 
-_HEAD, _TIME = "head", "time"  # of a kept run, beside its outputs
+_HEAD, _TIME = "head", "time"  # names in the file of a kept run that are no outputs
 
 
 @dataclass(frozen=True)

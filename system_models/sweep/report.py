@@ -114,7 +114,7 @@ def _run(dataset: xr.Dataset, number: int) -> xr.Dataset:
 
 
 def _computed(dataset: xr.Dataset, refused: int) -> list[str]:
-    """Return a sentence on rows that could not be computed, or else one on what is not known though they could."""
+    """Return the verdict: how many runs have invalid rows, or else which outputs have errors that leave all open."""
     rows = dataset["valid"].values.reshape(dataset["refused"].size, -1).all(axis=1)
     runs = rows.size - refused
     bad = int(np.sum(~rows)) - refused

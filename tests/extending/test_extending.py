@@ -12,15 +12,13 @@ from comparison import HARD, approx
 from page import ROOT, Tree, examples, section
 
 LAW, SHAPE, OUTPUT = "A tribofilm law", "A shape", "An output"
-MACHINE, SCHEME = "A machine", "A coupling scheme"
+SCHEME = "A coupling scheme"
 
 LAW_FILES = {"contact_core/laws/tribofilm/quinn.py", "contact_core/laws/tribofilm/__init__.py"}
 LAW_DATA = "contact_core/data/tribofilms.toml"
 SHAPE_FILES = {"contact_core/shapes/barrel.py", "contact_core/shapes/__init__.py"}
 OUTPUT_ROW = "contact_core/quantities.py"
 OUTPUT_FILES = {"contact_core/deterministic/observed.py", "contact_core/regression/outputs.py"}
-MACHINE_FOLDER = "system_models/machines/pin_rig/"
-REGISTRY = "system_models/machines/registry.py"
 SCHEME_FILES = {
     "system_models/numerics/algorithms.py",
     "system_models/numerics/iteration.py",
@@ -71,7 +69,7 @@ def extended(folder: Path, *titles: str, without: str = "") -> Tree:
 @pytest.fixture(scope="module")
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Tree]:
     """Return the packages with all extensions of the page, with kernels loaded, and pictures that are not rendered."""
-    whole = extended(tmp_path_factory.mktemp("tree"), LAW, SHAPE, OUTPUT, MACHINE, SCHEME)
+    whole = extended(tmp_path_factory.mktemp("tree"), LAW, SHAPE, OUTPUT, SCHEME)
     try:
         yield whole.warmed(_START + _FMU + _LOADED)
     finally:
@@ -114,11 +112,6 @@ def columns(tree: Tree, name: str) -> list[dict[str, str]]:
 )
 def test_an_extension_touches_so_many_files(title: str, files: set[str]) -> None:
     assert {block.file for block in section(title) if block.file} == files
-
-
-def test_a_machine_is_a_folder_and_an_entry() -> None:
-    files = {block.file for block in section(MACHINE) if block.file}
-    assert {file for file in files if not file.startswith(MACHINE_FOLDER)} == {REGISTRY}
 
 
 def test_the_law_grows_its_closed_form_at_both_levels(tree: Tree) -> None:
@@ -307,42 +300,6 @@ def test_an_output_is_a_row_and_what_computes_it(extend: Callable[..., Tree], wi
     assert "asperity_pressure: an output of a block has a trend in the quantity table, and is computed." in said
 
 
-def test_the_machine_runs_from_one_command(tree: Tree) -> None:
-    (line,) = examples(MACHINE, "sh")
-    printed = tree.command(line)
-    assert "Pin on disc by ASTM G99" in printed
-    assert "wear of the pin" in printed
-    folder = tree.folder / "work" / "results" / "pin_rig"
-    assert {"result.nc", "result.csv", "overview.png"} <= {path.name for path in folder.iterdir()}
-    last = columns(tree, "pin_rig")[-1]
-    assert float(last["time"]) == 600.0
-    assert float(last["disc.surface_speed"]) == approx(0.1, rel=1e-6)
-    assert float(last["contact.wear_depth_2"]) > float(last["contact.wear_depth_1"]) > 0.0
-    assert "pin_rig" in tree.command("tribofmu list")
-
-
-def test_a_machine_refuses_a_duty_without_a_needed_signal(tree: Tree) -> None:
-    said = tree.python(
-        """
-import tomllib
-from pathlib import Path
-from system_models.machines import reading
-machine = reading.read("pin_rig")
-del machine.table["duty"]["load"]
-reading.assemble(machine)
-""",
-        fails=True,
-    )
-    assert "load" in said.splitlines()[-1]
-
-
-@pytest.mark.long
-def test_a_machine_without_its_entry_is_refused_by_kind(extend: Callable[..., Tree]) -> None:
-    tree = extend(MACHINE, without=REGISTRY)
-    said = tree.command("tribofmu run pin_rig", fails=True)
-    assert "kind = 'pin_rig' is not one of ball_on_disc" in said
-
-
 def test_the_scheme_and_the_iteration_converge_at_their_orders(tree: Tree) -> None:
     found = found_by(
         tree,
@@ -402,12 +359,12 @@ print(json.dumps([seen, residuals]))
 def test_a_machine_is_coupled_by_the_scheme(tree: Tree) -> None:
     (line,) = examples(SCHEME, "sh")
     printed = tree.command(line)
-    assert "Steps: 120 to 600 s" in printed
-    assert "terations" in printed
+    assert "to 0.5 s, of" in printed
+    assert "Iterations:" in printed
 
 
 def test_a_scheme_without_its_entry_is_refused_by_name(extend: Callable[..., Tree]) -> None:
-    tree = extend(MACHINE, SCHEME, without="system_models/numerics/iteration.py")
+    tree = extend(SCHEME, without="system_models/numerics/iteration.py")
     (line,) = examples(SCHEME, "sh")
     said = tree.command(line, fails=True)
     assert "'relaxed'" in said

@@ -19,7 +19,7 @@ _LINE = re.compile(r"^(?:.* && )?(tribofmu .*)$", re.MULTILINE)
 _INDENTED = re.compile(r"^ {4}(tribofmu .*)$", re.MULTILINE)
 _WITHIN = re.compile(r"`(tribofmu [^`]*)`")
 _OPEN = re.compile(r"\b(?:SYSTEM|FILE|SCENE|NAME|MACHINE|DIR|DATA)\b|\.\.\.|HOST:PORT|A B")  # stands for something
-_OF_PAGE = re.compile(r"\.(?:toml|npy|csv|json)\b|^quinn_80c$")  # files and sets that a page makes
+_OF_PAGE = re.compile(r"\.(?:toml|npy|csv|json)\b|^(?:quinn_80c|leader)$")  # files, sets and schemes that a page makes
 PARSER = _parser()
 SHIPPED = {*shipped_scenes(), *shipped()}
 

@@ -74,7 +74,7 @@ def definitions(path: Path) -> set[str]:
 def test_every_equation_is_where_the_page_of_physics_says() -> None:
     text = (DOCS / "physics.md").read_text("utf-8").replace("\n  ", " ")
     places = re.findall(r"`((?:contact_core|system_models)/[\w/]+\.py)`((?:, `[\w.]+`)*)", text)
-    assert len(places) > 80
+    assert len(places) > 50
     for file, names in places:
         assert set(re.findall(r"`([\w.]+)`", names)) <= definitions(ROOT / file), file
 

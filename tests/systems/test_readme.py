@@ -24,7 +24,7 @@ def block(language: str, start: str) -> str:
 
 def test_the_python_example_runs(capsys: pytest.CaptureFixture[str]) -> None:
     names: dict[str, Any] = {}
-    exec(block("python", "from contact_core import Scene").replace("60.0", "10.0"), names)
+    exec(block("python", "from contact_core import Scene, advance").replace("60.0", "10.0"), names)
     assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == ["1", "2", "3"]
     assert isinstance(names["memory"], bytes)
     exec(block("python", "from contact_core import track_of"), names)

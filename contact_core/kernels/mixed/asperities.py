@@ -10,12 +10,13 @@ import numpy as np
 from ..compiled import jit
 
 REACH = 14.0  # depths above the floor at which the asperities end
-# from which on asperities rule a node, and down to which they go on ruling it: rise of their pressure per gap over that
-# of a half space, mobility of a face next to it over that of the stiff zone, share of the pressure
+# limits above which asperities decide the pressure of a node, and those down to which they go on deciding it: rise of
+# their pressure per gap over that of a half space; mobility of a face next to the node over that of the stiff zone;
+# their share of the pressure
 _STIFFER, _STILL_STIFFER = 0.2, 0.1
 _FREE, _STILL_FREE = 0.1, 0.03
 _MOST, _STILL_MOST = 0.5, 0.25
-_PART = 0.15  # of a lack that an iteration takes away: neighbours that rise as well part the bodies further
+_PART = 0.15  # of the missing pressure that an iteration adds: neighbours that rise too part the bodies further
 
 
 @jit
@@ -38,9 +39,10 @@ def rest_gap(q, floor, stress, depth):  # type: ignore[no-untyped-def]
 
 @jit
 def missing(p, carried, solid):  # type: ignore[no-untyped-def]
-    """Return a part of what a pressure is short of what the asperities carry, at most 0; 0 on solid contacts.
+    """Return by how much an iteration corrects a pressure that is below that of the asperities, at most 0.
 
-    The fluid pressure is zero there, and stays so until the pressure has risen by all of it.
+    It is a part of the difference, and 0 where solids touch. The fluid pressure of such a node is zero, and stays so
+    until the pressure has risen to that of the asperities.
     """
     return 0.0 if solid else _PART * min(p - carried, 0.0)
 

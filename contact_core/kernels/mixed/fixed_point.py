@@ -41,7 +41,7 @@ _LEAST_PART = 0.1  # of the load, that the balance of a film that conserves its 
 # oil of this part of what asperities carry is none where cavities hold oil: p - s(h) is a small difference there, and
 # its sign would decide between a cavity and a full node anew in every iteration
 _TRACE = 0.02
-_EMPTIEST, _FULLEST = 0.98, 5.0  # mass that a node may lack, or have to spare, at the end of a step, over what it holds
+_EMPTIEST, _FULLEST = 0.98, 5.0  # mass that a step may take from a node, or add to it, over what it holds
 _SHARE_TOLERANCE = 0.02  # nodes at the floor with a fluid pressure of about p change sides for ever, p unchanged
 
 

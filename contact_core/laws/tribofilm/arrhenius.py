@@ -208,7 +208,7 @@ class Arrhenius:
     def _towards(
         self, growth: Array, removal: Array, exposed: Array, temperature: float
     ) -> tuple[tuple[float, float], Array, Array]:
-        """Return h_max and C3 [m], and both rates times the time; what is beyond its limit stands still."""
+        """Return h_max and C3 [m], and both rates times the time; what is beyond its limit does not change."""
         limits = self.largest(temperature), self.largest_removal(temperature)
         ratio = self.taking(temperature) / self.rate(temperature)
         return limits, exposed * (growth < limits[0]), ratio * exposed * (removal < limits[1])

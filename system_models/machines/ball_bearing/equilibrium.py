@@ -68,6 +68,9 @@ def solve(
 ) -> Equilibrium:
     """Return the equilibrium at an angular speed [rad/s] of the inner ring; ball 1 is at azimuth `first_ball` [rad].
 
+    Sum of Q_j n_j + F = 0 and the same for the moments, Q = K delta^1.5, K being Hertz's stiffness of a ball on a race:
+    by Newton's method.
+
     tilt_stiffness: of the shaft against tilt of the ring [N m/rad]. `start` of an equilibrium nearby saves time; the
     answer is the same to rounding.
     """

@@ -58,6 +58,10 @@ class Race:
 class BallBearingGeometry:
     """A single row of balls; rings and balls of one material.
 
+    Distance of the groove centres A = (f_i + f_o - 1) D, free contact angle cos(alpha_0) = 1 - clearance / (2 A), R_x =
+    (D / 2) (1 -+ D cos(alpha) / d_m) at the inner and the outer race, 1 / R_y = 2 / D - 1 / (f D), f being the
+    conformities.
+
     A deep groove bearing has a clearance and starts with the rings concentric and in one plane. An angular contact
     bearing has a contact angle and starts where balls and grooves just touch, so that its axial force is positive.
     Source: Harris & Kotzalas, Essential Concepts of Bearing Technology, 5th ed., 2006, chapter 2.

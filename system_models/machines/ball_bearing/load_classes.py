@@ -25,7 +25,7 @@ from .kinematics import SLIDE_COULOMB, Motion
 Array = NDArray[np.float64]
 
 _CLOUD = 1e-4  # half width of a ball's cloud over its Q^(1/3)
-_LEAST = 1e-9  # load that each ball has on the outer race at least, over the largest one
+_LEAST = 1e-9  # least load of a ball on the outer race over the largest one
 _FEWEST = 1e-2  # balls that a class has at least where its track is asked for
 
 

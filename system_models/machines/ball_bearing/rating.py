@@ -91,7 +91,10 @@ def load_factor(geometry: BallBearingGeometry) -> float:
 
 
 def dynamic_rating(geometry: BallBearingGeometry) -> float:
-    """Return the basic dynamic radial load rating C_r [N] by ISO 281, with b_m = 1.3 of today's steel."""
+    """Return the basic dynamic radial load rating C_r [N] by ISO 281, with b_m = 1.3 of today's steel.
+
+    The life is L10 = 10^6 (C_r / P)^3.
+    """
     ball, balls = 1e3 * geometry.ball_diameter, geometry.balls
     grows = ball**1.8 if ball <= 25.4 else 3.647 * ball**1.4
     return float(1.3 * load_factor(geometry) * math.cos(geometry.contact_angle) ** 0.7 * balls ** (2 / 3) * grows)
@@ -153,7 +156,11 @@ def both(inner: Array, outer: Array) -> Array:
 
 
 def reference_life(geometry: BallBearingGeometry, rating: float, inner: Array, outer: Array) -> Array:
-    """Return the basic reference rating life L10r [revolutions] of ISO 16281 for loads [..., Z] of the balls [N]."""
+    """Return the basic reference rating life L10r [revolutions] of ISO 16281 for loads [..., Z] of the balls [N].
+
+    L10r = 10^6 [(Q_ci / Q_ei)^(-10/3) + (Q_ce / Q_ee)^(-10/3)]^(-9/10), Q_ei and Q_ee being the means of the balls'
+    loads by their 3rd and 10/3th powers.
+    """
     return both(*race_lives(geometry, rating, inner, outer))
 
 
@@ -191,6 +198,9 @@ def kappa_of_lambda(ratio: Array) -> Array:
 
 def life_factor(kappa: Array, ratio: Array) -> Array:
     """Return a_ISO of radial ball bearings for viscosity ratios and e_C C_u / P: ISO 281, (31) to (33).
+
+    L10mr = a_ISO L10r, a_ISO = 0.1 [1 - (2.5671 - A / kappa^B)^0.83 (e_C C_u / P)^(1/3)]^-9.3, kappa = nu / nu_1 or
+    lambda^1.3.
 
     kappa counts as 0.1 to 4 at most; below 0.1 the standard has no factor. Between 0.1 and 50.
     """

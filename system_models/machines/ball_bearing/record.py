@@ -25,11 +25,11 @@ Array = NDArray[np.float64]
 Parts = dict[str, Array]  # friction torque [N m] by cause, arrays [time], NaN at standstill
 Formula = Callable[[CatalogueBearing, float, float, float, float], Torque]  # radial, axial, speed, viscosity
 
-CAPPED = 1e3  # lambda ratios from here on say nothing
+CAPPED = 1e3  # lambda ratio from which on it is at its cap
 FEWEST = 0.02  # balls: a class of fewer stands for none
 _HARDLY = 0.02  # of the largest load or speed
 _REACHED = 0.99  # of its largest speed: a start ends there
-_POSITIONS = 24  # of the cage between one ball and the next
+_POSITIONS = 24  # positions of the cage between one ball and the next
 
 
 class ContactClass(NamedTuple):
@@ -113,7 +113,7 @@ class BearingRun:
 
     @property
     def last(self) -> int:
-        """The last row at the speed that the shaft has reached when it turns last; the last of all if it never does."""
+        """The last row near the speed of the last start; the last row of all if the shaft never starts."""
         if not self.starts:
             return self.time.size - 1
         rows = np.arange(self.starts[-1][-1], self.time.size)
@@ -173,7 +173,7 @@ class BearingRun:
 
     @cached_property
     def palmgren(self) -> Parts:
-        """Friction torque after Palmgren, likewise."""
+        """Friction torque after Palmgren."""
         return self._textbook(palmgren_torque, "by oil", "by load")
 
     def _textbook(self, formula: Formula, by_speed: str, by_load: str) -> Parts:

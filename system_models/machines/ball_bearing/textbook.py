@@ -15,6 +15,8 @@ from .geometry import BallBearingGeometry
 def sjovall(extent: float) -> tuple[float, float]:
     """Return the radial and axial load integral J_r, J_a of point contacts for an extent epsilon > 0 of the load zone.
 
+    J_r = (1 / pi) times the integral of [1 - (1 - cos(psi)) / (2 epsilon)]^1.5 cos(psi) over psi, J_a without cos(psi).
+
     With many balls the most loaded one carries F_r / (Z J_r cos a) = F_a / (Z J_a sin a).
     Source: Sjovall, Teknisk Tidskrift (1933), in the form of Harris & Kotzalas, Essential Concepts of Bearing
     Technology, 5th ed., 2006, chapter 7.
@@ -114,6 +116,8 @@ def skf_torque(
 ) -> Torque:
     """Return rolling and sliding friction torque after SKF, without seals and drag.
 
+    M = phi_heat phi_supply G_rr (nu n)^0.6 + mu_sl G_sl.
+
     radial, axial [N] >= 0, speed [rad/s], kinematic viscosity [m2/s] at the bearing's temperature; friction_film: of a
     full film, 0.05 for mineral and 0.04 for synthetic oil; starvation: 3e-8 for an oil bath or jet, 6e-8 for grease, 0
     where there is always enough.
@@ -167,6 +171,8 @@ def skf_drag(bearing: CatalogueBearing, speed: float, viscosity: float, level: f
 
 def palmgren_torque(bearing: CatalogueBearing, radial: float, axial: float, speed: float, viscosity: float) -> Torque:
     """Return M_0 of the oil and M_1 of the load after Palmgren.
+
+    M_0 = 10^-7 f_0 (nu n)^(2/3) d_m^3 for nu n > 2000, M_1 = f_1 P_1 d_m.
 
     radial, axial [N] >= 0, speed [rad/s], kinematic viscosity [m2/s].
     Source: Palmgren, Ball and Roller Bearing Engineering, 3rd ed., 1959, in the form of Harris & Kotzalas, Essential

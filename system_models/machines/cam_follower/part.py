@@ -36,6 +36,9 @@ def contact_name(k: int, count: int) -> str:
 class CamFollower(Part):
     """A cam, and a follower with a flat face that a spring holds on it; contacts at stations over the cam's angle.
 
+    R = r + s + s'', W = F_0 + k s + m w^2 s'', k being the stiffness of the spring, r the base circle, m the moving
+    mass (Dowson, Taylor & Zhu 1992).
+
     s is the lift over the angle of the cam, s' and s'' are its derivatives [m per rad, m per rad2], h = r + s, and w
     is the angular speed of the cam. With x along the face of the follower and x = 0 above the axis of the cam, the
     contact is at x = s' and moves with w s''. There the surface of the cam has the speed -w h along x, that of the

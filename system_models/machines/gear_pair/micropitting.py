@@ -108,7 +108,11 @@ def limit(working: Working, before: int = 0) -> float:
 
 
 def safety(ratio: float, failing: float, material_factor: float) -> float:
-    """Return S_lambda of a least ratio: over lambda_GFP, 1.4 W_W times the ratio with which the oil fails the test."""
+    """Return S_lambda of a least ratio: over lambda_GFP, 1.4 W_W times the ratio with which the oil fails the test.
+
+    S_lambda = min(h_Y / Ra) / (1.4 W_W lambda_GFT); bulk temperature theta_M = theta_oil + 7400 [P mu H_V / (a b)]^0.72
+    X_S / 1.2 (kW, mm). lambda_GFT is the least h_Y / Ra of the test gears at the load stage at which the oil fails.
+    """
     return ratio / (MARGIN * material_factor * failing)
 
 

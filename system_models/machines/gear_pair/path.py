@@ -22,12 +22,18 @@ _ALIKE = 1e-9  # of the path: distances below it are rounding
 
 
 def radius(pair: SpurGearPair, position: Numbers) -> Numbers:
-    """Return the combined radius of curvature [m] of two involutes whose own radii are the distances to T1 and T2."""
+    """Return the combined radius of curvature [m] of two involutes whose own radii are the distances to T1 and T2.
+
+    R = s (T - s) / T, s being the position on the path and T its length between the base circles.
+    """
     return position * (pair.line_length - position) / pair.line_length
 
 
 def surface_speeds(pair: SpurGearPair, position: Numbers, speed_1: float, speed_2: float) -> tuple[Numbers, Numbers]:
-    """Return surface speeds [m/s] of pinion and wheel that turn at speed_1 and speed_2 [rad/s]."""
+    """Return surface speeds [m/s] of pinion and wheel that turn at speed_1 and speed_2 [rad/s].
+
+    u_1 = omega_1 s, u_2 = omega_2 (T - s).
+    """
     return speed_1 * position, speed_2 * (pair.line_length - position)
 
 

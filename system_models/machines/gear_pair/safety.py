@@ -50,7 +50,7 @@ class Safeties:
 
     @property
     def rating(self) -> Rating:
-        """What the machine's file says, or what is assumed."""
+        """Numbers of the rating, from the machine's file or assumed."""
         found: Rating = self.record.assembly.reported.get("rating") or Rating()
         return found
 

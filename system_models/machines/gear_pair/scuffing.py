@@ -49,7 +49,12 @@ def margin(limit: float, hottest: float, oil: float) -> float:
 
 
 def by_flash(working: Working) -> Flash:
-    """Return the flash temperature method: theta_M = theta_oil + 0.47 X_S theta_flm, theta_B = theta_M + theta_fl."""
+    """Return the flash temperature method: theta_M = theta_oil + 0.47 X_S theta_flm, theta_B = theta_M + theta_fl.
+
+    S_B = (theta_S - theta_oil) / (max theta_B - theta_oil), theta_fl = 2.52 mu (X_M / 50) X_J (X w)^0.75 (n_1 / 60)^0.5
+    |sqrt(rho_1) - sqrt(rho_2 / u)| / rho^0.25 (N/mm, rpm, mm), theta_S = 80 + (0.85 + 1.4 X_W) X_L S^2, S being the
+    load stage of A/8.3/90.
+    """
     rise = flash(working)
     bulk = working.oil + 0.47 * working.rating.supply_factor * working.mean(rise)
     temperature, limit = bulk + rise, scuffing_temperature(working)
@@ -111,6 +116,9 @@ def best_relief(working: Working) -> float:
 
 def by_integral(working: Working) -> Integral | None:
     """Return the integral temperature method; None for pairs that its contact ratio factor is not for.
+
+    S_intS = theta_intS / theta_int; theta_flaint = X_eps theta_flaE, the flash temperature at the pinion's tip under
+    the whole load times a factor of the contact ratios.
 
     theta_int = theta_M + 1.5 theta_flaint, theta_M = theta_oil + 0.7 X_S theta_flaint; the allowed one is the same sum
     for the test of the oil: theta_MT = 80 + 0.23 T X_L, theta_flaintT = 0.2 T (100 / nu_40)^0.02 X_L, T = 3.726 S^2.

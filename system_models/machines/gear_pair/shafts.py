@@ -22,8 +22,9 @@ Array = NDArray[np.float64]
 class GearShafts(Part):
     """Two inertias and the teeth between them, a spring and a damper along the line of action.
 
-    J1 w1' = T_drive + k (w_drive - w1) + M_f1 - r_b1 F,  J2 w2' = r_b2 F - T_brake + M_f2 - D w2,
-    F = K delta + C delta',  delta' = r_b1 w1 - r_b2 w2,  C = 2 zeta sqrt(K m),  1/m = r_b1^2/J1 + r_b2^2/J2.
+    J1 omega_1' = T_drive + k (omega_drive - omega_1) + M_f1 - r_b1 F,
+    J2 omega_2' = r_b2 F - T_brake + M_f2 - D omega_2,
+    F = K delta + C delta',  delta' = r_b1 omega_1 - r_b2 omega_2,  C = 2 zeta sqrt(K m),  1/m = r_b1^2/J1 + r_b2^2/J2.
     Steps are exact under held inputs. Deflected teeth ring for some 1 / (zeta sqrt(K/m)), milliseconds; a much longer
     step ends at the force that moves both shafts alike. The stiffness is the mean of a mesh cycle
     (`sharing.mean_stiffness` times the face width), and the teeth never part: backlash is left out.
@@ -147,7 +148,7 @@ class GearShafts(Part):
 def _step(shafts: GearShafts, step: float) -> tuple[Array, Array]:
     """Return matrices of a step [s] for r_b1 w1, r_b2 w2 and frequency times deflection [m/s], and outer torques.
 
-    All three are of one size; Loan's block matrix gives both: doi:10.1109/TAC.1978.1101743.
+    All three are of one size; the block matrix of Van Loan 1978, doi:10.1109/TAC.1978.1101743, gives both.
     """
     found = exponential(_rates(shafts) * step)
     return found[:3, :3], found[:3, 3:]

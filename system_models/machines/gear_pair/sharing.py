@@ -22,6 +22,9 @@ _DEDENDUM = 1.25  # of the basic rack, in modules
 class Sharing:
     """Law by which pairs of teeth share the load.
 
+    Rigid: F_i = F / n. Elastic: F_i = b c(x) max(delta - relief_i, 0), sum of F_i = F, c(x) = c' [0.55 + 1.8 x (1 -
+    x)], x being the share of the path passed and c' the stiffness of ISO 6336-1:2006, section 9.3; Cai & Hayashi 1994.
+
     "rigid": in equal parts. "elastic": each as stiff as `pair_stiffness`, all deflected alike; linear tip relief takes
     off the tip `relief` and less toward `relief_length` before it, measured along the line of action.
     """

@@ -56,6 +56,8 @@ def michaelis(
 ) -> float:
     """Return the mean coefficient of friction of a mesh, 0.045 [(F / b) / (v_sum rho)]^0.2 eta^-0.05 X_R X_L.
 
+    ISO/TR 13989-1 has 0.060 [w / (v_sum rho)]^0.2 X_L Ra^0.25.
+
     X_R = 2.2 (Ra / rho)^0.25; arguments and units as of `schlenk`, Ra in um over rho in mm.
     Source: Michaelis, Diss. TU Muenchen 1987, as in ISO/TS 6336-22 and ISO/TS 6336-21; from memory.
     """
@@ -70,6 +72,8 @@ def michaelis(
 
 def iso_14179_1(pair: SpurGearPair, torque: float, speed_1: float, kinematic_viscosity: float) -> float:
     """Return the mean coefficient of friction of a mesh, nu^-0.223 K^-0.40 / (3.239 V^0.70).
+
+    K = T_1 (z_1 + z_2) / (2 b r_w1^2 z_2).
 
     torque [N m] and speed_1 [rad/s] of the pinion, both > 0; kinematic_viscosity [m2/s] at the oil's temperature. V is
     the speed of the pitch circles, K the load intensity; fitted in mm2/s, N/mm2, m/s. Meant for 2 < V <= 25 m/s and
@@ -89,6 +93,8 @@ def blok_line(
     load: float, length: float, friction: float, speed_1: float, speed_2: float, half_width: float, effusivity: float
 ) -> float:
     """Return the largest flash temperature rise [K] of a line contact moving fast over both bodies, of one material.
+
+    1.11 mu w |sqrt(u_1) - sqrt(u_2)| / [B sqrt(2 a)], w being the load per length and B the effusivity.
 
     load [N] on a length [m], coefficient of friction, surface speeds [m/s], Hertz's half width [m], effusivity
     sqrt(conductivity * density * heat capacity) [W s^0.5 / (m2 K)]. The factor is that of Hertz's pressure, and heat
