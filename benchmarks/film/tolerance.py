@@ -2,7 +2,7 @@
 
     python -m benchmarks.film.tolerance [SCENE]
 
-Writes docs/measured/film/tolerance.md and docs/measured/film/tolerance.png. Each row marches the same surfaces as a block
+Writes docs/measured/film.md and docs/measured/film/tolerance.png. Each row marches the same surfaces as a block
 does, the faster body by a node a step, 40 nodes after a common start; the error is that of the pressure,
 sum |p - p_ref| / sum p_ref, averaged over the steps, against the tightest tolerance.
 """
@@ -14,14 +14,12 @@ from dataclasses import replace
 import numpy as np
 from matplotlib.figure import Figure
 
-from benchmarks.folders import MEASURED
-from benchmarks.pages import save
+from benchmarks.pages import folder, save
 from benchmarks.timing import work_unit
 from contact_core import Scene, Transient, initial_state, solve
 from contact_core.deterministic.transient import next_instant
 from contact_core.scene import Case
 
-DOCS = MEASURED / "film"
 TOLERANCES = ("2e-4", "1e-3", "3e-3", "1e-2", "3e-2")
 STEPS = 40
 
@@ -81,7 +79,7 @@ def main() -> None:
         axes.annotate(text, (x, y), textcoords="offset points", xytext=(6, 4), fontsize="small")
     axes.set_xlabel("work units a step")
     axes.set_ylabel("pressure error [%]")
-    figure.savefig(DOCS / "tolerance.png", dpi=130)
+    figure.savefig(folder("film") / "tolerance.png", dpi=130)
     print("\n".join(lines))
 
 

@@ -206,7 +206,8 @@ def assumptions(scene: Scene) -> Iterator[str]:
 
 
 def _measured(found: measured.Table) -> str:
-    title = f"<p>{plain(found.title)} (<code>{plain(found.command)}</code>):</p>"
+    when = f"measured on {found.measured}{', of older code' if found.older else ''}"
+    title = f"<p>{plain(found.title)} (<code>{plain(found.command)}</code>, {when}):</p>"
     return title + table(found.head, found.rows)
 
 
