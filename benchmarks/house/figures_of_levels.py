@@ -65,24 +65,25 @@ def drivers(pages: Pages) -> list[str]:
     heads = ("scene", "`control.driver`", "against", "blocks", "of them dry", "CPU s", "WU")
     names = ("friction", "h_c", "W_c", "A_c", "tribofilm", "wear", "Rq disc", "Rq ball")
     columns = (("mu",), ("h_c",), ("W_c",), ("A_c",), ("film 1", "film 2"), ("wear 1", "wear 2"), ("Rq 2",), ("Rq 1",))
-    control = {
-        row["driver"]: row for row in pages.rows("surfaces/evolution", "blocks", "The shipped control") if row["mu"]
-    }
-    by_rule = pages.rows("surfaces/evolution", "dry blocks", "At the same surfaces")
-    rows = []
-    for driver in ("auto", "mixed", "dry"):
-        found = [row for row in by_rule if row["case"] == "azam_case_a" and row["driver"] == driver]
-        dry = found[0]["dry blocks"] if found else "0"
-        rows.append(("azam_case_a", driver, "ten times finer blocks", dry, control[driver]))
+    page, case = "surfaces/evolution", "azam_case_a"
+    by_rule = pages.rows(page, "dry blocks", "At the same surfaces")
+    dry = {(row["case"], row["driver"]): row["dry blocks"] for row in by_rule} | {(case, "mixed"): "0"}
+    rows = [
+        (case, row["driver"], "ten times finer blocks", dry[case, row["driver"]], row)
+        for row in pages.rows(page, "blocks", "The shipped control")
+        if row["mu"]
+    ]
+    shown = {driver for _, driver, *_ in rows}
+    main = "auto" if "auto" in shown else "mixed"  # of scenes as they ship
     rows += [
         (row["case"], row["driver"], "the same driven mixed", row["dry blocks"], row)
         for row in by_rule
-        if (row["case"], row["driver"]) != ("azam_case_a", "auto")  # that is in `control`
+        if (row["case"], row["driver"]) != (case, "auto")  # that is among the first
     ]
     lines = [line_of((*heads, *names)), "|" + "---|" * (len(heads) + len(names))]
     for scene, driver, against, dry, row in rows:
         errors = (f"{max(number(row[column]) for column in columns_):.1f} %" for columns_ in columns)
-        shipped = f"{driver} (shipped)" if driver == "auto" else driver
+        shipped = f"{driver} (shipped)" if driver == main else driver
         share = f"{dry} ({100.0 * int(dry) / int(row['blocks']):.0f} %)"
         cost = (f"{number(row['s']):.0f}", f"{number(row['WU']):.1e}".replace("e+0", "e"))
         lines.append(line_of((scene, shipped, against, row["blocks"], share, *cost, *errors)))
