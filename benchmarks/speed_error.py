@@ -16,18 +16,18 @@ import math
 import time
 from collections.abc import Iterator
 from dataclasses import asdict, replace
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from benchmarks.claims import kept
 from benchmarks.film import grid_error
-from benchmarks.folders import RESULTS
 from benchmarks.pages import Page
 from benchmarks.timing import work_unit
 from contact_core import OperatingPoint, Scene, SceneError, advance, initial_state, warm_up
 from contact_core.quantities import ABSOLUTE, STATED
 
-KEPT = RESULTS / "speed_error.json"
 ACCURACIES = ("20 %", "10 %", "5 %", "2 %", "1 %", "0.5 %")
 NODES = 257  # along x, of the truths
 MOST = 193  # nodes along x that are run; finer ones would cost more than the truth
@@ -102,8 +102,7 @@ def solve(part: str) -> None:
         if key not in kept:
             film = setting.scene.film
             kept[key] = {"rows": task(setting, op), "nodes": film.points if film.on_grid else 0}
-            KEPT.parent.mkdir(parents=True, exist_ok=True)
-            KEPT.write_text(json.dumps(kept))
+            _file().write_text(json.dumps(kept))
             print(key, f"{kept[key]['rows'][-1]['seconds']:.3g} s", flush=True)
 
     if part in ("all", "blocks"):
@@ -125,7 +124,7 @@ def solve(part: str) -> None:
 
 def read() -> dict[str, Any]:
     """Return what is known: rows of outputs and nodes, by "case|setting"."""
-    found: dict[str, Any] = json.loads(KEPT.read_text()) if KEPT.exists() else {}
+    found: dict[str, Any] = json.loads(_file().read_text()) if _file().exists() else {}
     return found
 
 
@@ -230,6 +229,10 @@ def picture(points: list[Any]) -> Any:
     first.plot([], [], "s", color="0.5", label="two hours (squares)")
     first.legend(frameon=False, fontsize="small")
     return figure
+
+
+def _file() -> Path:
+    return kept("speed_error") / "found.json"
 
 
 def main() -> None:

@@ -1,1 +1,1 @@
-"""The co-simulation master and other masters and importers."""
+"""The co-simulation master, and importers of its machines."""

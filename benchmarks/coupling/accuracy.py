@@ -2,7 +2,7 @@
 
     python -m benchmarks.coupling.accuracy
 
-Writes docs/measured/coupling/accuracy.md and docs/measured/coupling/accuracy.png. The errors are those against solutions of the coupled
+Writes docs/measured/coupling.md and docs/measured/coupling/accuracy.png. The errors are those against solutions of the coupled
 equations as a whole. Orders: the largest error of the positions and speeds at the end, the course before t = 0 being
 exact. Tolerances: the root mean square of the errors of positions and speeds, each over the largest value of its own,
 at its largest over the run, looked at in 300 rows. The work is the number of calls of doStep, of all FMUs together.
@@ -17,12 +17,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from benchmarks.folders import MEASURED
 from benchmarks.models import build, exact
-from benchmarks.pages import save
+from benchmarks.pages import folder, save
 from system_models.master import CouplingError, System, simulate
 
-DOCS = MEASURED / "coupling"
 Solution = Callable[[np.ndarray], np.ndarray]
 Settings = dict[str, Any]
 
@@ -282,7 +280,7 @@ def plot(rates: list[Order], found: list[Run]) -> None:
     by_calls.set(xlabel="calls of doStep", ylabel="largest error", title="the same by work")
     by_step.legend(fontsize=7)
     figure.legend(*by_tolerance.get_legend_handles_labels(), loc="outside right center", fontsize=7)
-    figure.savefig(DOCS / "accuracy.png", dpi=120)
+    figure.savefig(folder("coupling") / "accuracy.png", dpi=120)
 
 
 def shown(rows: Iterator[str]) -> list[str]:

@@ -2,7 +2,7 @@
 
     python -m benchmarks.coupling.ssp_importers
 
-Writes docs/measured/coupling/ssp_importers.md. Importers take fixed steps, hold inputs, and set them all at the end of a step: Jacobi of
+Writes docs/measured/coupling.md. Importers take fixed steps, hold inputs, and set them all at the end of a step: Jacobi of
 order 0, which the master takes for comparison, with the very FMUs of the file. What is too little to tell is the
 coupling's error: how far the master's own answers are apart, with these steps, with double ones, and as the machine's
 file has it, by Gauss-Seidel under error control. `pip install ".[importers]"` brings fmpy, libcosimpy and ecospy;
@@ -21,7 +21,6 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from benchmarks.folders import MEASURED
 from benchmarks.hosts import omsimulator, ssp_runner
 from benchmarks.hosts.ssp_runner import IMPORTERS, UNUSABLE
 from benchmarks.pages import save
@@ -31,7 +30,6 @@ from system_models.machines.export import with_timetable
 from system_models.master import System, export_ssp, simulate
 
 RUNNER = Path(ssp_runner.__file__)
-PAGE = MEASURED / "coupling" / "ssp_importers.md"
 OMSIMULATOR = "OMSimulator"
 LEAST = 1e-6  # of a value: what is told of its error
 STARTS_AT_ZERO = "fmpy"  # sets all connected inputs to zero for the first step
@@ -197,7 +195,7 @@ def fed(importer: str) -> bool:
 
 
 def page(done: Sequence[tuple[list[str], dict[str, float]]]) -> str:
-    """docs/measured/coupling/ssp_importers.md."""
+    """docs/measured/coupling.md."""
     lines = [
         "# Exported machines in importers of SSP",
         "",

@@ -2,7 +2,7 @@
 
     python -m benchmarks.film.error_estimate [--points 200] [--seconds 1800] [--shape ellipse]
 
-Writes docs/measured/film/error_estimate.md, of ellipses docs/measured/film/error_estimate_ellipse.md. The points are those of `random_points`, seed 3, on 65 nodes; the true error is the
+Writes docs/measured/film.md. The points are those of `random_points`, seed 3, on 65 nodes; the true error is the
 difference to 257 nodes, or a tolerance of the value if that is more: no film is solved better. A point that is not
 converged on one of the three grids is counted and left out.
 """

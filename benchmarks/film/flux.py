@@ -2,7 +2,7 @@
 
     python -m benchmarks.film.flux
 
-Writes docs/measured/film/flux.md in about three minutes.
+Writes docs/measured/film.md in about three minutes.
 """
 
 from benchmarks.film import flux_valleys

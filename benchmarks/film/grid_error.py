@@ -4,24 +4,24 @@
     python -m benchmarks.film.grid_error report    # from what is known so far
 
 First blocks of shipped scenes on fresh surfaces over speed and load, each with surfaces of its own. The truth is the
-grid with the most nodes. Writes docs/measured/film/grid_error.md; what results/film/grid_error.json holds is kept.
+grid with the most nodes. Writes docs/measured/film.md; what results/film/grid_error.json holds is kept.
 """
 
 import argparse
 import json
 from collections.abc import Iterator
 from dataclasses import asdict, fields, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from benchmarks.folders import RESULTS
+from benchmarks.claims import kept
 from benchmarks.pages import Page
 from contact_core import Error, OperatingPoint, Outputs, Scene, advance, initial_state, uncertainty
 from contact_core.deterministic.solution_error import with_errors_of_the_solution
 from contact_core.scene import Case
 
-KEPT = RESULTS / "film" / "grid_error.json"
 NAMES = {
     "friction_coefficient": "friction",
     "contact_load_ratio": "W_c",
@@ -62,14 +62,13 @@ def solve() -> None:
             state, out = advance(scene, op, initial_state(scene), 0.0)
             parts = {name: [error.time, error.sampling] for name, error in uncertainty(scene, state).items()}
             rows[key] = asdict(out) | {"parts": parts, "case": name, "level": level, "nodes": scene.film.points}
-            KEPT.parent.mkdir(parents=True, exist_ok=True)
-            KEPT.write_text(json.dumps(rows))
+            _file().write_text(json.dumps(rows))
             print(key, f"W_c {out.contact_load_ratio:.4f}", flush=True)
 
 
 def read() -> Rows:
     """Return the solutions that are known."""
-    found: Rows = json.loads(KEPT.read_text()) if KEPT.exists() else {}
+    found: Rows = json.loads(_file().read_text()) if _file().exists() else {}
     return found
 
 
@@ -137,6 +136,10 @@ def compared(row: dict[str, Any], truth: dict[str, Any], name: str) -> tuple[flo
     """Return the true error of an output and the stated one; relative to its value but for those in `ABSOLUTE`."""
     unit = 1.0 if name in ABSOLUTE else max(abs(row[name]), 1e-300)
     return abs(row[name] - truth[name]) / unit, together(row, name) / unit
+
+
+def _file() -> Path:
+    return kept("film/grid_error") / "found.json"
 
 
 def main() -> None:

@@ -8,7 +8,7 @@
 a line for each to random_K_of_N.csv in results/film/hard_cases; what stands there already is not solved again. Of ellipses,
 whose radii are in a ratio of 0.1 to 10, the nodes are those along the shorter side. Lines have the same radius and
 largest pressure, and rows that repeat themselves; their answers are not checked. `rows` solves the listed cases on
-three grids. `report` writes docs/measured/film/hard_cases.md and docs/measured/film/hard_cases.png from those files.
+three grids. `report` writes docs/measured/film.md and docs/measured/film/hard_cases.png from those files.
 """
 
 import argparse
@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.film.hard_cases_kept import GRIDS, KEPT, NODES, SAID, TOLERANCE, add, read
+from benchmarks.film.hard_cases_kept import GRIDS, NODES, SAID, TOLERANCE, add, folder, read
 from benchmarks.film.hard_cases_page import report
 from benchmarks.film.independent import FLOOR, answer, film_of, judge
 from benchmarks.film.listed_cases import MOVING, STEADY, marched
@@ -69,7 +69,7 @@ def solved_line(point: Point, nodes: int) -> dict[str, Any]:
 
 def random(shape: str, first: int, last: int, part: int, parts: int, nodes: int) -> None:
     """Solve points `first` to `last` of those drawn, every `parts`-th, and add them to a file."""
-    path = KEPT / f"{'random' if shape == 'circle' else shape}_{part}_of_{parts}.csv"
+    path = folder() / f"{'random' if shape == 'circle' else shape}_{part}_of_{parts}.csv"
     done = {int(row["case"]) for row in read(path)}
     for case, point in enumerate(islice(_kept(elliptical=shape == "ellipse"), last), 1):
         if case < first or case % parts != part % parts or case in done:
@@ -85,7 +85,7 @@ def _kept(*, elliptical: bool) -> Iterator[Point]:
 def rows(grids: tuple[int, ...]) -> None:
     """Solve the list on grids, each from its beginning."""
     for nodes in grids:
-        path = KEPT / f"rows_{nodes}.csv"
+        path = folder() / f"rows_{nodes}.csv"
         path.unlink(missing_ok=True)
         for row in STEADY:
             add(path, {"name": row.name, "nodes": nodes} | solved(row.arguments(nodes)))

@@ -5,11 +5,10 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from benchmarks.dependencies import kept
+from benchmarks.claims import kept
 from benchmarks.film.independent import Judgement
 from benchmarks.film.random_points import Point
 
-KEPT = kept("film/hard_cases")
 NODES, TOLERANCE = 129, 3e-3
 GRIDS = (65, 129, 257)
 SAID = ("iterations", "pressure_change", "load_error", "h_c", "h_min", "contact_load_ratio", "contact_area_ratio")
@@ -18,6 +17,11 @@ COLUMNS = (
     *("case", "name", "nodes", *(entry.name for entry in fields(Point)), "moes_load", "formula_film", "ms"),
     *("converged", "shortfall", "algorithm", *SAID, *(entry.name for entry in fields(Judgement))),
 )
+
+
+def folder() -> Path:
+    """Where solved points are kept."""
+    return kept("film/hard_cases")
 
 
 def read(path: Path) -> list[dict[str, str]]:

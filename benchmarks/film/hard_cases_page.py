@@ -8,13 +8,12 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from benchmarks.film.hard_cases_kept import GRIDS, KEPT, NODES, TOLERANCE, read
+from benchmarks.film.hard_cases_kept import GRIDS, NODES, TOLERANCE, folder, read
 from benchmarks.film.independent import LIMITS, Judgement, limit
 from benchmarks.film.random_points import ROWS
-from benchmarks.folders import MEASURED
+from benchmarks.pages import folder as pictures_of
 from benchmarks.pages import save
 
-DOCS = MEASURED / "film"
 Array = np.ndarray
 
 
@@ -137,11 +136,11 @@ def _row_table(lines: list[dict[str, str]]) -> list[str]:
 
 def report() -> None:
     """Write the tables and the map from what has been solved."""
-    found = {int(line["case"]): line for path in sorted(KEPT.glob("random_*.csv")) for line in read(path)}
+    found = {int(line["case"]): line for path in sorted(folder().glob("random_*.csv")) for line in read(path)}
     drawn = [found[case] for case in sorted(found)]
-    ellipses = [line for path in sorted(KEPT.glob("ellipse_*.csv")) for line in read(path)]
-    lines = [line for path in sorted(KEPT.glob("line_*.csv")) for line in read(path)]
-    listed = [line for nodes in GRIDS for line in read(KEPT / f"rows_{nodes}.csv")]
+    ellipses = [line for path in sorted(folder().glob("ellipse_*.csv")) for line in read(path)]
+    lines = [line for path in sorted(folder().glob("line_*.csv")) for line in read(path)]
+    listed = [line for nodes in GRIDS for line in read(folder() / f"rows_{nodes}.csv")]
     text = [
         "# Hard cases",
         "",
@@ -159,7 +158,7 @@ def report() -> None:
             "![map](hard_cases.png)",
             "",
         ]
-        _map(drawn, DOCS / "hard_cases.png")
+        _map(drawn, pictures_of("film") / "hard_cases.png")
     if ellipses:
         nodes = ", ".join(sorted({line["nodes"] for line in ellipses}))
         ellipses.sort(key=lambda line: int(line["case"]))

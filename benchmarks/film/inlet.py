@@ -3,7 +3,7 @@
     python -m benchmarks.film.inlet [--report]
 
 Smooth bodies over Hamrock's and Dowson's U, G, W: circles, ellipses and lines, of steel and of rubber; smooth bodies of
-shipped scenes; domains that an accuracy chooses. Writes docs/measured/film/inlet.md in some ten minutes; `--report`
+shipped scenes; domains that an accuracy chooses. Writes docs/measured/film.md in some ten minutes; `--report`
 from what results/film/inlet.json holds.
 """
 
@@ -11,13 +11,14 @@ import argparse
 import json
 from contextlib import suppress
 from dataclasses import asdict, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from benchmarks.claims import kept
 from benchmarks.film.flux_films import Film, film
 from benchmarks.film.inlet_contacts import Contact, contacts
-from benchmarks.folders import RESULTS
 from benchmarks.pages import Page
 from benchmarks.timing import timed
 from contact_core import ContactError, Scene
@@ -25,7 +26,6 @@ from contact_core.deterministic.instant import instant_of
 from contact_core.scene import Case
 from contact_core.scene.hertz_grid import HALF_WIDTHS, room_for_hertz, with_values
 
-KEPT = RESULTS / "film" / "inlet.json"
 CHOSEN = 0.5 * HALF_WIDTHS  # half widths before the centre, by Hertz's contact alone
 INLETS = (0.4, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0)  # before Hertz's contact
 LONG = {False: 14.0, True: 60.0}  # inlets that stand for all, of points and of lines
@@ -199,6 +199,10 @@ def percent(loss: float) -> str:
     return f"{100.0 * loss:.2f}" if np.isfinite(loss) else "–"
 
 
+def _file() -> Path:
+    return kept("film/inlet") / "found.json"
+
+
 def main() -> None:
     """Measure, unless told otherwise, and write the page."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -209,9 +213,8 @@ def main() -> None:
             found["contacts"].append(measured(contact))
             print(contact, [f"{lost:.4f}" for _, lost in found["contacts"][-1]["cut"]], flush=True)
         found |= {"scenes": [shipped(name) for name in SCENES], "asked": [asked(*duty) for duty in DUTIES]}
-        KEPT.parent.mkdir(parents=True, exist_ok=True)
-        KEPT.write_text(json.dumps(found))
-    report(json.loads(KEPT.read_text()))
+        _file().write_text(json.dumps(found))
+    report(json.loads(_file().read_text()))
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
     python -m benchmarks.film.measured
 
-Writes docs/measured/film/measured.md and docs/measured/film/measured.png in about a minute. The data are in
+Writes docs/measured/film.md and docs/measured/film/measured.png in about a minute. The data are in
 system_models/validation/data.
 """
 

@@ -2,7 +2,7 @@
 
     python -m benchmarks.film.moving
 
-Writes docs/measured/film/moving.md in about half an hour.
+Writes docs/measured/film.md in about half an hour.
 """
 
 import numpy as np

@@ -6,7 +6,7 @@
 slippy 0.5.2 asks for an older NumPy than Python 3.11 has; what is used here of it, slippy.core, runs with any.
 The exit code is 1 if two answers differ by more than is stated below, 2 if there is no peer to compare with.
 
-Writes docs/measured/film/peers.md and docs/measured/film/peers.png. A rough ball on a flat: R = 10 mm, E* = 115.235 GPa, 77.85 N (Hertz pressure
+Writes docs/measured/film.md and docs/measured/film/peers.png. A rough ball on a flat: R = 10 mm, E* = 115.235 GPa, 77.85 N (Hertz pressure
 1.26 GPa), a domain of four Hertz radii, Rq 0.1 um. All solvers run in one process on one thread on the same heights,
 each to its own tolerance of 1e-8. What their tolerances mean differs, so the table shows what came out: errors against
 a Polonsky-Keer solution of tolerance 1e-12, and complementarity by one kernel. Peers that are not installed are named
@@ -28,8 +28,7 @@ import numpy as np
 import scipy.fft
 from matplotlib.figure import Figure
 
-from benchmarks.folders import MEASURED
-from benchmarks.pages import save
+from benchmarks.pages import folder, save
 from contact_core.calls.dry_contact import dry_contact
 from contact_core.film import shared
 from contact_core.kernels.half_space import influence
@@ -37,7 +36,6 @@ from contact_core.reference import hertz_point
 from contact_core.scene import Surface
 from contact_core.surfaces.roughness import generate
 
-DOCS = MEASURED / "film"
 RADIUS, MODULUS, LOAD, RQ, LENGTH = 10e-3, 115.235e9, 77.85, 0.1e-6, 20.1e-6  # MODULUS is E*, half of E'
 HERTZ = hertz_point(LOAD, RADIUS, RADIUS, 2.0 * MODULUS)
 TOLERANCE = 1e-8
@@ -295,7 +293,7 @@ def plot(sizes: list[int], times: list[dict[str, float]]) -> None:
     axes.set_ylabel("CPU time [ms]")
     axes.set_xlabel("nodes")
     axes.legend(fontsize="small")
-    figure.savefig(DOCS / "peers.png", dpi=130)
+    figure.savefig(folder("film") / "peers.png", dpi=130)
 
 
 HEAD = """# Dry rough contact beside other open solvers

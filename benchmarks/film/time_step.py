@@ -2,7 +2,7 @@
 
     python -m benchmarks.film.time_step
 
-Writes docs/measured/film/time_step.md in about ten minutes.
+Writes docs/measured/film.md in about ten minutes.
 """
 
 import numpy as np

@@ -2,7 +2,7 @@
 
     python -m benchmarks.film.tolerance [SCENE]
 
-Writes docs/measured/film/tolerance.md and docs/measured/film/tolerance.png. Each row marches the same surfaces as a block
+Writes docs/measured/film.md. Each row marches the same surfaces as a block
 does, the faster body by a node a step, 40 nodes after a common start; the error is that of the pressure,
 sum |p - p_ref| / sum p_ref, averaged over the steps, against the tightest tolerance.
 """
@@ -12,16 +12,13 @@ import time
 from dataclasses import replace
 
 import numpy as np
-from matplotlib.figure import Figure
 
-from benchmarks.folders import MEASURED
 from benchmarks.pages import save
 from benchmarks.timing import work_unit
 from contact_core import Scene, Transient, initial_state, solve
 from contact_core.deterministic.transient import next_instant
 from contact_core.scene import Case
 
-DOCS = MEASURED / "film"
 TOLERANCES = ("2e-4", "1e-3", "3e-3", "1e-2", "3e-2")
 STEPS = 40
 
@@ -62,26 +59,15 @@ def main() -> None:
         "|---|---|---|---|---|---|---|",
     ]
     reference: list[np.ndarray] = []
-    cost, errors = [], []
     for tolerance in TOLERANCES:
         pressures, iterations, seconds, share, missed = march(args.scene, tolerance)
         reference = reference or pressures
         error = np.mean([np.abs(p - q).sum() / q.sum() for p, q in zip(pressures, reference, strict=True)])
-        cost.append(seconds / unit)
-        errors.append(100 * error)
         lines.append(
             f"| {tolerance} | {iterations:.1f} | {1e3 * seconds:.1f} | {seconds / unit:.0f} | {100 * error:.2f} % "
             f"| {share:.3f} | {missed} of {STEPS} |"
         )
     save("film/tolerance", "\n".join(lines))
-    figure = Figure(figsize=(5.2, 3.6), layout="constrained")
-    axes = figure.add_subplot()
-    axes.loglog(cost[1:], errors[1:], "ko-")
-    for x, y, text in zip(cost[1:], errors[1:], TOLERANCES[1:], strict=True):
-        axes.annotate(text, (x, y), textcoords="offset points", xytext=(6, 4), fontsize="small")
-    axes.set_xlabel("work units a step")
-    axes.set_ylabel("pressure error [%]")
-    figure.savefig(DOCS / "tolerance.png", dpi=130)
     print("\n".join(lines))
 
 

@@ -2,7 +2,7 @@
 
     python -m benchmarks.film.two_hours
 
-Writes docs/measured/film/two_hours.md in about forty minutes.
+Writes docs/measured/film.md in about forty minutes.
 """
 
 import time

@@ -1,1 +1,1 @@
-"""The FMU: cost of a step, memory, lost processes."""
+"""The FMU: cost of a step."""

@@ -3,7 +3,7 @@
     python -m benchmarks.fmu.native [FILE.fmu ...] [--rounds 1000000] [--sequences 10000] [--instances 10000]
 
 Without files, it builds the FMUs of three contacts (a ball on a disc, a gear's flank, a ball of a bearing) and writes
-docs/measured/fmu/native.md; with them it only prints, of FMI 2 or 3, with their sources inside.
+docs/measured/fmu.md; with them it only prints, of FMI 2 or 3, with their sources inside.
 
 For each FMU: median, 99th and 99.99th percentile and maximum of the time of a round (set the load, step, get five outputs)
 in one process on one CPU, after a tenth as many rounds that are not measured; the same with the derivatives of friction

@@ -2,7 +2,7 @@
 
     python -m benchmarks.fmu.overhead
 
-Writes docs/measured/fmu/overhead.md. All of it in one run, for each flavour: the median and the 90 % range of the time of one
+Writes docs/measured/fmu.md. All of it in one run, for each flavour: the median and the 90 % range of the time of one
 round trip (set one input, step, get five outputs) of an empty slave and of mtm_zddp at the regression level, called directly,
 through fmpy, and from a host in C that knows nothing of Python, all on one CPU; the same in C with the state saved before
 each step, and restored and freed after it ("taken back"), and with processes that may change their CPU; of three passes

@@ -1,1 +1,1 @@
-"""Friction and the cost of the laws."""
+"""Friction of full films."""

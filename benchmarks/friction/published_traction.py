@@ -2,7 +2,7 @@
 
     python -m benchmarks.friction.published_traction
 
-Writes docs/measured/friction/published_traction.md.
+Writes docs/measured/friction.md.
 """
 
 import argparse

@@ -8,7 +8,7 @@ Faults are data: benchmarks/house/faults/*.toml. Each names a file, the text `ol
 `changes`), and the `tests` of which every one must fail with it and pass without; or says in `harmless` why none can.
 The copy lies in a temporary folder with a virtual environment of its own, so that every process started by a test, an
 FMU's worker too, imports the copy. What was found is kept in results/faults.json until the fault, its file or one of its
-tests changes, so a run can be stopped and taken up again. docs/measured/house/faults.md says what is known.
+tests changes, so a run can be stopped and taken up again. docs/measured/house.md says what is known.
 The exit code is 1 if a fault was not noticed, 2 if the list does not fit the code or a test fails without a fault.
 """
 
@@ -29,12 +29,11 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks.folders import MEASURED, RESULTS, ROOT
+from benchmarks.folders import RESULTS, ROOT
 from benchmarks.pages import save
 
 LISTS = Path(__file__).with_suffix("")
 FOUND = RESULTS / "faults.json"
-PAGE = MEASURED / "house" / "faults.md"
 LONGEST = 1800.0  # s for the tests of one fault, each more than enough
 NATIVE = Path("fmu_src", "isolated", "native")
 NOTICED, SURVIVES, UNKNOWN = "noticed", "survives", "not tried"
@@ -299,7 +298,7 @@ def main() -> int:
     known = json.loads(FOUND.read_text()) if FOUND.exists() else {}
     each(faults, known, given.jobs)
     save("house/faults", page(every, known))
-    print(f"wrote {PAGE.relative_to(ROOT)}")
+    print("wrote docs/measured/house.md")
     return int(any(not fault.harmless and state_of(fault, known) != NOTICED for fault in faults))
 
 

@@ -7,7 +7,7 @@ from benchmarks.house.tables import Pages, link, number, range_of
 
 def fmu(pages: Pages) -> list[tuple[str, ...]]:
     """Return the cost of the isolated FMU over its model."""
-    page, over = "fmu/overhead.md", "over the direct call [us]"
+    page, over = "fmu/overhead", "over the direct call [us]"
     lines = []
     for slave, what in (("empty", "an empty model"), ("mtm_zddp", "the regression level of mtm_zddp")):
         rows = [
@@ -23,51 +23,30 @@ def fmu(pages: Pages) -> list[tuple[str, ...]]:
     many = pages.rows(page, "instances", flavour="isolated")
     ends = (f"{row['instances']}: {row['ready after [s]']} s, {row['memory [MB]']} MB" for row in (many[0], many[-1]))
     lines.append(("instances: ready after, memory", *ends, link(page)))
-    page = "fmu/endurance.md"
-    lost = pages.rows(page, "lost process")
-    restored = sorted(lost, key=lambda row: number(row["restored after, median [ms]"]))
-    ends = (
-        f"{row['restored after, median [ms]']} ms ({row['lost process']}, {row['model']})"
-        for row in (restored[0], restored[-1])
-    )
-    lines.append(("time to replace a lost process and restore its state", *ends, link(page)))
     return lines
 
 
 def coupling(pages: Pages) -> list[tuple[str, ...]]:
     """Accuracy and cost of the co-simulation master."""
-    text = (pages.folder / "coupling/accuracy.md").read_text(encoding="utf-8")
+    text = pages.text("coupling/accuracy")
     shares = [
         tuple(map(float, pair)) for pair in re.findall(r"horizon .* s: ([\d.]+) to ([\d.]+) of the tolerance", text)
     ]
     least, most = min(low for low, _ in shares), max(high for _, high in shares)
-    lines = [
-        ("error over the requested tolerance, 1e-2 to 1e-6", f"{least:g}", f"{most:g}", link("coupling/accuracy.md"))
-    ]
-    rows = pages.rows("coupling/masters.md", "ratio")
-    low, high = range_of((row["ratio"] for row in rows), "{:.1f}".format)
-    lines.append(
-        ("steps of the best of three other masters over those of this one", high, low, link("coupling/masters.md"))
-    )
-    rows = pages.rows("coupling/cost.md", "beyond")
-    for name, newton in (("explicit schemes and fixed-point iteration", False), ("quasi-Newton", True)):
-        kept = [row["beyond"] for row in rows if ("quasi-Newton" in row["scheme"]) == newton]
-        found = range_of(kept, "{:.0f} us".format)
-        lines.append((f"time of a step per FMU beyond the calls, {name}", *found, link("coupling/cost.md")))
-    return lines
+    return [("error over the requested tolerance, 1e-2 to 1e-6", f"{least:g}", f"{most:g}", link("coupling/accuracy"))]
 
 
 def machines(pages: Pages) -> list[tuple[str, ...]]:
     """Return how often the stated error of the coupling covers the change by far shorter steps."""
-    rows = pages.rows("machines/tolerance.md", "not covered")
+    rows = pages.rows("machines/tolerance", "not covered")
     ranked = sorted(rows, key=lambda row: number(row["not covered"]) / number(row["outputs"]))
     ends = (f"{row['not covered']} of {row['outputs']} ({row['machine']})" for row in (ranked[0], ranked[-1]))
-    return [("`error_coupling` of a machine: outputs not covered", *ends, link("machines/tolerance.md"))]
+    return [("`error_coupling` of a machine: outputs not covered", *ends, link("machines/tolerance"))]
 
 
 def thesis(pages: Pages) -> list[tuple[str, ...]]:
     """Return how many claims of the thesis agree, and how many of the others have a cause shown, as shipped and as read."""
-    page, found = "thesis/validation.md", []
+    page, found = "thesis/validation", []
     for column, what in (("ours", "the shipped cases"), ("joint reading", "its cases in the joint reading")):
         (row,) = (row for row in pages.rows(page, "cannot be judged") if row[""] == column)
         total = sum(int(row[name]) for name in ("agree", "disagree", "cannot be judged", "not run"))

@@ -2,7 +2,7 @@
 
     python -m benchmarks.house.stays
 
-Follows `advance` of mtm_zddp at each level while it runs and writes docs/measured/house/stays.md.
+Follows `advance` of mtm_zddp at each level while it runs and writes docs/measured/house.md.
 """
 
 import sys

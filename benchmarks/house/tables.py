@@ -1,15 +1,17 @@
-"""Tables of pages, and the figures in their cells."""
+"""Tables of sections of docs/measured, and the figures in their cells."""
 
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import NamedTuple
 
+from benchmarks import claims, sections
+
 Row = dict[str, str]
 
 
 class Table(NamedTuple):
-    """A table of a page: the heading it stands under, and its rows by column."""
+    """A table of a section: the heading it stands under, and its rows by column."""
 
     heading: str
     columns: tuple[str, ...]
@@ -17,7 +19,7 @@ class Table(NamedTuple):
 
 
 def tables(text: str) -> list[Table]:
-    """All tables of a page."""
+    """All tables of a section."""
     found: list[Table] = []
     heading, before = "", ""
     for line in text.splitlines():
@@ -42,29 +44,33 @@ def unlike(names: Iterable[str]) -> tuple[str, ...]:
 
 
 class Pages:
-    """The pages of a folder, each read once."""
+    """The sections of docs/measured, each read once."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path = sections.KEPT) -> None:
         self.folder, self.read = folder, {}  # type: Path, dict[str, list[Table]]
 
-    def rows(self, page: str, column: str, heading: str = "", **given: str) -> list[Row]:
+    def text(self, name: str) -> str:
+        """Return a section in Markdown."""
+        return sections.read(name, self.folder).text
+
+    def rows(self, name: str, column: str, heading: str = "", **given: str) -> list[Row]:
         """Rows of the tables with a column under a heading that begins so, whose cells have these values."""
-        if page not in self.read:
-            self.read[page] = tables((self.folder / page).read_text(encoding="utf-8"))
+        if name not in self.read:
+            self.read[name] = tables(self.text(name))
         found = [
             row
-            for table in self.read[page]
+            for table in self.read[name]
             if column in table.columns and table.heading.startswith(heading)
             for row in table.rows
-            if all(row.get(name) == value for name, value in given.items())
+            if all(row.get(key) == value for key, value in given.items())
         ]
         if not found:
-            raise LookupError(f"docs/measured/{page} has no row with {column!r}, {given} under {heading!r}")
+            raise LookupError(f"the section {name} has no row with {column!r}, {given} under {heading!r}")
         return found
 
-    def row(self, page: str, column: str, heading: str = "", **given: str) -> Row:
+    def row(self, name: str, column: str, heading: str = "", **given: str) -> Row:
         """Return the only such row."""
-        (found,) = self.rows(page, column, heading, **given)
+        (found,) = self.rows(name, column, heading, **given)
         return found
 
 
@@ -81,21 +87,16 @@ def per_cent(share: float) -> str:
     return f"{100.0 * share:.0f} %"
 
 
-def link(*pages: str) -> str:
-    """Links to pages."""
-    return ", ".join(f"[{page.removesuffix('.md')}](measured/{page})" for page in pages)
+def link(name: str) -> str:
+    """A link to a section, which says if that is of older code."""
+    older = sections.OLDER if claims.note(sections.read(name)) else ""
+    return f"[{name}](measured/{sections.place(name)}){older}"
 
 
 def range_of(cells: Iterable[str], say: Callable[[float], str]) -> tuple[str, str]:
     """The least and the largest number."""
     numbers = [number(cell) for cell in cells]
     return say(min(numbers)), say(max(numbers))
-
-
-def pair(cell: str) -> tuple[float, float]:
-    """Both numbers of a cell "a / b"."""
-    one, other = cell.split(" / ")
-    return float(one), float(other)
 
 
 def line_of(cells: Iterable[str]) -> str:

@@ -1,1 +1,1 @@
-"""Ball bearings, gear pairs and the test rig."""
+"""Ball bearings, gear pairs, and the coupling of machines."""

@@ -3,7 +3,7 @@
     OMP_NUM_THREADS=1 NUMBA_NUM_THREADS=1 python -m benchmarks.machines.tolerance [MACHINE ...]
 
 Simulations are kept in results/machines/tolerance, so a run can be taken up again. Writes
-docs/measured/machines/tolerance.md of all machines that are there.
+docs/measured/machines.md of all machines that are there.
 """
 
 import sys
@@ -15,14 +15,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from benchmarks.dependencies import kept
+from benchmarks.claims import kept
 from benchmarks.pages import save
 from system_models.machines import reading
 from system_models.machines.assembly import Assembly
 from system_models.machines.coupling_error import coarser, differences, relative, settled, stated
 from system_models.master import simulate
 
-KEPT = kept("machines/tolerance")
+SECTION = "machines/tolerance"
 # up to which time of its duty each is simulated, and into how many parts its steps are cut for the truth
 MACHINES = {
     "mtm_rig": ("", 8),
@@ -57,9 +57,8 @@ def simulated(name: str) -> None:
         system = assembly.system(Path(folder))
 
         def made(kind: str, settings: Mapping[str, Any]) -> xr.Dataset:
-            path = KEPT / f"{name}_{kind}.nc"
+            path = kept(SECTION) / f"{name}_{kind}.nc"
             if not path.exists():
-                KEPT.mkdir(parents=True, exist_ok=True)
                 found = simulate(system, **{**settings, "outputs": assembly.outputs()})
                 found.to_netcdf(path.with_suffix(".new"))
                 path.with_suffix(".new").replace(path)
@@ -74,7 +73,7 @@ def simulated(name: str) -> None:
 def rows(name: str) -> tuple[str, list[str]]:
     """A line for a machine, and lines for the outputs with the largest errors and those that are not covered."""
     assembly, (end, parts) = assembled(name), MACHINES[name]
-    run, coarse, fine = (xr.load_dataset(KEPT / f"{name}_{kind}.nc") for kind in ("run", "coarse", "fine"))
+    run, coarse, fine = (xr.load_dataset(kept(SECTION) / f"{name}_{kind}.nc") for kind in ("run", "coarse", "fine"))
     times = settled(coarse, assembly.schedule)
     run = stated(run, coarse, assembly.schedule)
     found = relative(run, assembly.nominals())
@@ -94,7 +93,7 @@ def rows(name: str) -> tuple[str, list[str]]:
 
 def page() -> str:
     """The page of all machines that were simulated."""
-    there = [name for name in MACHINES if (KEPT / f"{name}_fine.nc").exists()]
+    there = [name for name in MACHINES if (kept(SECTION) / f"{name}_fine.nc").exists()]
     missing = [name for name in MACHINES if name not in there]
     pairs = [rows(name) for name in there]
     lacks = f"\n\nNot compared yet: {', '.join(missing)}." if missing else ""
@@ -132,4 +131,4 @@ The {MOST} outputs of each with the largest error stated, and all that are not c
 if __name__ == "__main__":
     for machine in sys.argv[1:] or MACHINES:
         simulated(machine)
-    save("machines/tolerance", page())
+    save(SECTION, page())

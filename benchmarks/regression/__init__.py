@@ -1,1 +1,1 @@
-"""The regression level: its fit, its errors, its cost."""
+"""The regression level: its errors, its cost."""

@@ -2,7 +2,7 @@
 
     python -m benchmarks.regression.cost
 
-Writes docs/measured/regression/cost.md: the median and the 90 % range of the time of `advance` over 10 000 steps of 1 ms with
+Writes docs/measured/regression.md: the median and the 90 % range of the time of `advance` over 10 000 steps of 1 ms with
 inputs that change from step to step, with the temperature held (its viscosity is remembered) and with it changing, too,
 of the shipped scenes and of one with other laws. After every hundred steps as many array operations of nine numbers are
 timed. "over np.exp" is the median over these stretches of the ratio of both medians: of what the machine and others on it

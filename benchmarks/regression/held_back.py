@@ -1,7 +1,7 @@
 """The regression level on contacts that nothing was fitted to, on new and on rubbed surfaces of every shipped scene.
 
     python -m benchmarks.regression.held_back solve  # the points by the deterministic level: an hour
-    python -m benchmarks.regression.held_back page   # both levels: docs/measured/regression/held_back.md and .png
+    python -m benchmarks.regression.held_back page   # both levels: docs/measured/regression.md and .png
 
 Solved points stay in results/regression_held_back: `solve` solves what is missing there, `page` shows what is there.
 """

@@ -7,13 +7,15 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
-from benchmarks.folders import RESULTS
-from benchmarks.regression.points import composite_roughness, speed_for
+from benchmarks.claims import kept as folder_of
 from contact_core import ContactError, ContactState, OperatingPoint, Scene, advance, initial_state
+from contact_core.reference.point_films import at_no_pressure
 from contact_core.surfaces.track_means import means_of
 
-STORE = RESULTS / "regression_held_back"
+FASTEST = 95.0  # m/s, of the mean speed: the faster surface stays below 100 m/s
+SECTION = "regression/held_back"
 SEED = 2309  # no other benchmark of this level draws with it
 FRESH, RUBBED = 12, 4  # points of each scene
 # between which: loads over the reference, lambda, slide-roll ratio, temperature over the reference [K]
@@ -69,6 +71,28 @@ class Held:
         return OperatingPoint(self.load, self.speed + half, self.speed - half, self.temperature)
 
 
+def smooth_film(scene: Scene, load: float, speed: float, temperature: float) -> float:
+    """Central film [m] of the smooth bodies by the formula of their shape."""
+    oil = at_no_pressure(scene.lubricant.viscosity, temperature)
+    return scene.shape().film(load, speed, *oil, scene.solids.reduced_modulus)
+
+
+def composite_roughness(scene: Scene) -> float:
+    """Rms roughness of both bodies together [m]."""
+    return float(np.hypot(scene.surface_1.rq, scene.surface_2.rq))
+
+
+def speed_for(scene: Scene, ratio: float, load: float, temperature: float) -> float:
+    """Mean speed [m/s] at which the smooth film is `ratio` times the roughness, at most the fastest one."""
+    film = ratio * composite_roughness(scene)
+
+    def excess(log: float) -> float:
+        return smooth_film(scene, load, float(np.exp(log)), temperature) - film
+
+    fastest = float(np.log(FASTEST))
+    return FASTEST if excess(fastest) < 0.0 else float(np.exp(brentq(excess, np.log(1e-7), fastest)))
+
+
 def seeded(name: str, seed: int) -> Scene:
     """Return a shipped scene at the deterministic level with other seeds of its surfaces."""
     shipped = Scene.from_toml(name)
@@ -106,12 +130,11 @@ def rubbed_state(point: Held) -> ContactState:
     half = 0.5 * speed * duty.sliding_speed / duty.entrainment_speed
     op = OperatingPoint(duty.load, speed + half, speed - half, duty.temperature)
     for minutes in (m for m in MINUTES if m <= point.minutes):
-        file = STORE / f"{point.scene}_{minutes:g}.state"
+        file = folder_of(SECTION) / f"{point.scene}_{minutes:g}.state"
         if file.exists():
             state = ContactState.from_bytes(file.read_bytes(), scene)
         else:
             state = advance(scene, op, state, 60.0 * (minutes - now))[0]
-            STORE.mkdir(parents=True, exist_ok=True)
             file.write_bytes(state.to_bytes())
         now = minutes
     return state
@@ -134,7 +157,7 @@ def stored(name: str) -> list[tuple[Held, dict[str, Any]]]:
 
 
 def _kept(name: str) -> dict[str, dict[str, Any]]:
-    file = STORE / f"{name}.json"
+    file = folder_of(SECTION) / f"{name}.json"
     return {row.pop("key"): row for row in json.loads(file.read_text())} if file.exists() else {}
 
 
@@ -143,7 +166,7 @@ def solved(name: str, *, fresh: bool = True, rubbed: bool = True) -> list[tuple[
 
     What is kept in the store of the same point is not solved again.
     """
-    file, kept = STORE / f"{name}.json", _kept(name)
+    file, kept = folder_of(SECTION) / f"{name}.json", _kept(name)
     rows = []
     for k, point in enumerate(held(name)):
         if not (rubbed if point.minutes else fresh):
@@ -154,7 +177,6 @@ def solved(name: str, *, fresh: bool = True, rubbed: bool = True) -> list[tuple[
                 kept[key] = observe(point)
             except ContactError as error:
                 kept[key] = {"refused": str(error)}
-            STORE.mkdir(parents=True, exist_ok=True)
             file.write_text(json.dumps([row | {"key": each} for each, row in kept.items()]))
             told = {n: f"{kept[key].get(n, math.nan):.3g}" for n in ("contact_load_ratio", "h_c", "seconds")}
             print(name, k, told, kept[key].get("refused", ""), flush=True)

@@ -2,7 +2,7 @@
 
     python -m benchmarks.stress.field
 
-Writes docs/measured/stress/field.md and two pictures; half a minute. Pressures are means over cells, or those of `dry_contact`.
+Writes docs/measured/stress.md and two pictures; half a minute. Pressures are means over cells, or those of `dry_contact`.
 """
 
 from collections.abc import Callable

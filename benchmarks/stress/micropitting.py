@@ -2,7 +2,7 @@
 
     python -m benchmarks.stress.micropitting
 
-Writes docs/measured/stress/micropitting.md and two pictures. Runs are kept in results/; a new set takes some 17 minutes.
+Writes docs/measured/stress.md and two pictures. Runs are kept in results/; a new set takes some 17 minutes.
 """
 
 import math

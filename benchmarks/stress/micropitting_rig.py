@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import gamma, norm
 
-from benchmarks.dependencies import kept
+from benchmarks.claims import kept
 from contact_core import Scene, advance, initial_state
 
 Array = NDArray[np.float64]

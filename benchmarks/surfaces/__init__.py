@@ -1,1 +1,1 @@
-"""Surfaces over hours: tribofilm, wear, roughness, Stribeck curves."""
+"""Surfaces over hours."""

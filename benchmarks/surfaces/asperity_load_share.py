@@ -2,7 +2,7 @@
 
     python -m benchmarks.surfaces.asperity_load_share
 
-Writes docs/measured/surfaces/asperity_load_share.md and .png in about five minutes, one thread.
+Writes docs/measured/surfaces.md and .png in about five minutes, one thread.
 """
 
 import math
@@ -134,7 +134,7 @@ def statistics(page: Page) -> None:
     page.say(
         "## Our own roughness by their method\n\nEvery fit is 1 at lambda 0, whatever the load: it is the pressure of rigid or dry rough bodies at a mean gap, "
         "over that at no gap. The same of our law of dry roughness, exp(-lambda sigma / h_0), fitted to our own dry contacts and to no fit of these "
-        f"([asperity_layer](asperity_layer.md)): h_0 = {ELASTIC_HEIGHT:g} sigma of elastic, {PLASTIC_HEIGHT:g} sigma of yielding asperities."
+        f"(`contact_core/laws/asperity_layer.py`): h_0 = {ELASTIC_HEIGHT:g} sigma of elastic, {PLASTIC_HEIGHT:g} sigma of yielding asperities."
     )
     page.header("lambda", "band of the fits", "elastic", "yielding", "inside")
     inside = []

@@ -4,7 +4,7 @@
     python -m benchmarks.surfaces.evolution grid driver    these parts only
     python -m benchmarks.surfaces.evolution --again        run everything anew, after a change of the core
 
-Parts: control, order, grid, sensitivity, driver, memory. Writes docs/measured/surfaces/evolution.md and docs/measured/surfaces/evolution.png. One thread; a
+Parts: control, order, grid, sensitivity, driver, memory. Writes docs/measured/surfaces.md and docs/measured/surfaces/evolution.png. One thread; a
 run is found again by the fingerprint of its scene.
 """
 
@@ -19,9 +19,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from benchmarks.dependencies import kept
-from benchmarks.folders import MEASURED
-from benchmarks.pages import save
+from benchmarks.claims import kept
+from benchmarks.pages import folder, save
 from benchmarks.timing import work_unit
 from contact_core import OperatingPoint, Scene, advance, initial_state, solve, uncertainty
 from contact_core.deterministic.accumulator import Accumulator
@@ -29,7 +28,7 @@ from contact_core.deterministic.sampling import sample_dry, sample_mixed
 from contact_core.scene import Case
 from contact_core.surfaces.patches import track_rows
 
-DOCS, KEPT = MEASURED / "surfaces", kept("surfaces/evolution")
+SECTION = "surfaces/evolution"
 CASE, HOURS, INTERVAL = "azam_case_a", 2.0, 60.0
 TIMES = np.array([5, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110, 119])  # minutes at which runs are compared
 WINDOW = 2.0  # minutes to either side over which the finer run is averaged: its rows scatter, too
@@ -62,7 +61,7 @@ def run(changes: dict[str, str], case: str = CASE) -> dict[str, np.ndarray]:
     """Rows of two hours: outputs, their half widths (`time_...`, `sampling_...`), blocks, seconds and work units."""
     scene = scene_of(changes, case)
     text = json.dumps([scene.to_dict(), HOURS, INTERVAL], sort_keys=True)
-    file = KEPT / f"{case}-{hashlib.sha256(text.encode()).hexdigest()[:12]}.npz"
+    file = kept(SECTION) / f"{case}-{hashlib.sha256(text.encode()).hexdigest()[:12]}.npz"
     if again or not file.exists():
         compute(scene, file)
     with np.load(file) as stored:
@@ -87,7 +86,6 @@ def compute(scene: Scene, file: Path) -> None:
     found["minutes"] = np.arange(len(rows)) * INTERVAL / 60.0
     found["seconds"], found["units"] = np.array(seconds), np.array(seconds / work_unit(scene.film.points))
     found["blocks"] = found["blocks_dry"] + found["blocks_mixed"] + found["blocks_fallback"]
-    KEPT.mkdir(parents=True, exist_ok=True)
     np.savez_compressed(file, **found)
     print(f"{file.name}: {seconds:.0f} s, {found['blocks'][-1]:.0f} blocks", flush=True)
 
@@ -231,7 +229,7 @@ def order() -> list[str]:
     axes.set_xlabel("blocks in two hours")
     axes.set_ylabel("rms error over time [%]")
     axes.legend(fontsize="x-small")
-    figure.savefig(DOCS / "evolution.png", dpi=130)
+    figure.savefig(folder("surfaces") / "evolution.png", dpi=130)
     return [
         "Dry-driven, rms error over time in per cent against blocks of 0.75 nm with 16 instants each. First the length of the blocks,",
         "then the instants of a block. Euler's steps are of first order; the roughness of the ball is sampling noise: it falls with",
@@ -419,9 +417,8 @@ def main() -> None:
     if unknown:
         raise SystemExit(f"{', '.join(unknown)}: no such part. There are {', '.join(PARTS)}.")
     again = args.again
-    KEPT.mkdir(parents=True, exist_ok=True)
     for name in args.parts or PARTS:
-        (KEPT / f"{name}.md").write_text("\n".join(PARTS[name]()) + "\n")
+        (kept(SECTION) / f"{name}.md").write_text("\n".join(PARTS[name]()) + "\n")
     page = [
         f"# Two hours of rubbing: cost, error and its causes ({CASE})",
         "",
@@ -429,7 +426,7 @@ def main() -> None:
         "deformation convolution on the same grid. Outputs are explained in `contact_core/quantities.py`.",
     ]
     for name, part in PARTS.items():
-        text = KEPT / f"{name}.md"
+        text = kept(SECTION) / f"{name}.md"
         if text.exists():
             page += [
                 "",
@@ -437,7 +434,7 @@ def main() -> None:
                 "",
                 *text.read_text().splitlines(),
             ]
-    save("surfaces/evolution", "\n".join(page))
+    save(SECTION, "\n".join(page))
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
     python -m benchmarks.surfaces.finishes
 
-Writes docs/measured/surfaces/finishes.md, and contact_core/data/surfaces/*.csv, which the sets of surfaces.toml name.
+Writes docs/measured/surfaces.md, and contact_core/data/surfaces/*.csv, which the sets of surfaces.toml name.
 """
 
 import argparse

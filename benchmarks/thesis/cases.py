@@ -11,14 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.dependencies import kept
+from benchmarks.claims import kept
 from contact_core import ContactError, ContactState, Scene, advance, initial_state, uncertainty
 from contact_core.laws.tribofilm import thickness
 from contact_core.scene.toml import flat
 from contact_core.surfaces.patches import bare_heights, heights_of, roughness_of
 from contact_core.surfaces.roughness import rms_roughness
 
-KEPT = kept("thesis/validation")
+SECTION = "thesis/validation"
 INTERVAL = 60.0  # s between two rows
 SNAPSHOTS = (1, 5, 10, 20)  # minutes at which the tribofilm is kept whole
 SRR = (-10.0, -5.0, -2.0, -0.5, 0.5, 2.0, 5.0, 10.0)  # percent
@@ -123,7 +123,7 @@ class Case:
         put_in = json.dumps(
             [self.in_numerics(numerics, trial).to_dict(), trial.hours, INTERVAL, self.rubs], sort_keys=True
         )
-        return KEPT / f"{self.name}-{numerics}-{hashlib.sha256(put_in.encode()).hexdigest()[:12]}.npz"
+        return kept(SECTION) / f"{self.name}-{numerics}-{hashlib.sha256(put_in.encode()).hexdigest()[:12]}.npz"
 
 
 def _dropped(key: str, changes: Mapping[str, str]) -> bool:
@@ -345,7 +345,7 @@ class Book:
             return None
         if file.exists():
             return file
-        old = KEPT.parent.glob(f"*/{name}-{numerics}-*.npz") if self.earlier else ()
+        old = kept(SECTION).parent.glob(f"*/{name}-{numerics}-*.npz") if self.earlier else ()
         alike = [path for path in old if _same_scene(path, tables, self.trial)]
         return max(alike, key=lambda path: path.stat().st_mtime, default=None)
 
@@ -356,7 +356,7 @@ class Book:
     def is_earlier(self, name: str, numerics: str) -> bool:
         """Return whether a run is one of other sources."""
         file = self.file(name, numerics)
-        return file is not None and file.parent != KEPT
+        return file is not None and file.parent != kept(SECTION)
 
     def getter(self, numerics: str, seed: int = 1) -> Get:
         """Cases of one numerics, of the shipped surfaces or those of another seed."""

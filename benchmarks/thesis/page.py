@@ -1,4 +1,4 @@
-"""The page docs/measured/thesis/validation.md: summary, claims by chapter with their causes, tables."""
+"""The page docs/measured/thesis.md: summary, claims by chapter with their causes, tables."""
 
 import re
 from collections import Counter

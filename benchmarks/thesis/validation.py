@@ -6,7 +6,7 @@
     python -m benchmarks.thesis.validation --column ours   only that column's runs, then the page
     python -m benchmarks.thesis.validation --case 'A_*' --column ours --again --jobs 2
 
-Writes docs/measured/thesis/validation.md and its pictures. Results are found again by a fingerprint of the whole scene and of
+Writes docs/measured/thesis.md and its pictures. Results are found again by a fingerprint of the whole scene and of
 the test time, as long as nothing has changed that the page depends on; with --earlier, those of other sources too, if the scene
 is the same in every field that both know (the page lists them). A run that is killed loses the cases at work, no more. --hours and --points try the way quickly; they report to its trial.
 """
@@ -18,14 +18,14 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from fnmatch import fnmatchcase
 from multiprocessing import get_context
 
-from benchmarks.dependencies import stamp
-from benchmarks.folders import MEASURED
-from benchmarks.thesis.cases import CASES, KEPT, NUMERICS, Book, Case, Trial, run
+from benchmarks.claims import kept
+from benchmarks.pages import folder as pictures_of
+from benchmarks.pages import save
+from benchmarks.thesis.cases import CASES, NUMERICS, SECTION, Book, Case, Trial, run
 from benchmarks.thesis.page import page
 from benchmarks.thesis.plots import draw
 from contact_core import ContactError
 
-DOCS = MEASURED / "thesis"
 THREADS = ("OMP_NUM_THREADS", "NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")
 Job = tuple[Case, str]
 
@@ -78,14 +78,15 @@ def main() -> None:
         todo = [(case, kind) for case, kind in jobs if args.again or not book.has(case.name, kind)]
         failed = run_all(todo, trial, args.jobs)
         book = Book(trial, args.earlier)  # with what has been run
-    place = DOCS if trial.real else KEPT / "trial"
+    place = pictures_of("thesis") if trial.real else kept(SECTION) / "trial"
     place.mkdir(parents=True, exist_ok=True)
     pictures = draw(book, place)
     text = page(book, pictures)
     if trial.real and not args.earlier:
-        text += f"\n{stamp('thesis/validation')}\n"
-    (place / "validation.md").write_text(text, "utf-8")
-    print(f"{place / 'validation.md'} and {len(pictures)} plots written.")
+        save(SECTION, text)
+    else:
+        (place / "validation.md").write_text(text, "utf-8")
+    print(f"{len(pictures)} plots written to {place}.")
     sys.exit(1 if failed else 0)
 
 

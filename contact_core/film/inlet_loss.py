@@ -1,7 +1,7 @@
 """Film that is missing where the domain ends within the inlet: the pressure begins too close to the contact.
 
 What decides of smooth, flooded contacts is the distance of the domain's edge from Hertz's, in lengths of the inlet. The
-law covers circles, ellipses and lines, of steel and of rubber, up to ten inlets (docs/measured/film/inlet.md,
+law covers circles, ellipses and lines, of steel and of rubber, up to ten inlets (docs/measured/film.md,
 `python -m benchmarks.film.inlet`). Hamrock's and Dowson's of starved contacts, `reference.film_behind_meniscus`, has no
 loss from some three inlets on.
 """

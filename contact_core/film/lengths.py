@@ -21,6 +21,6 @@ def inlet_length(a: float, shape: Shape, film: float) -> float:
 def resolves_inlet(nodes: float, *, fitted: bool) -> bool:
     """Return True if a grid with so many nodes across the inlet gives the film.
 
-    Above these central films are right to 8 %, and mostly to 3 %: docs/measured/film/flux.md.
+    Above these central films are right to 8 %, and mostly to 3 %: docs/measured/film.md.
     """
     return nodes >= _NODES[fitted]

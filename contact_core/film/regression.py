@@ -25,7 +25,7 @@ class Regression:
     name: ClassVar[str] = "regression"
     source: ClassVar[str] = (
         "film: Nijenbanning, Venner & Moes 1994, doi:10.1016/0043-1648(94)90150-3; sharing: see its source; "
-        "smoothing: benchmarks/regression/curves.py"
+        "smoothing: fitted to solved contacts"
     )
 
     on_grid: ClassVar[bool] = False

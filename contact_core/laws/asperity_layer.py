@@ -2,7 +2,8 @@
 
 Their height is that of the room which the touching surfaces leave, volume per area: the distance of the mean planes of
 the deformed surfaces, zero in full contact. Form and constants follow from dry contacts of periodic, self-affine
-roughness (Hurst exponent 0.8, waves over a factor of 4 to 16 in length): docs/measured/surfaces/asperity_layer.md.
+roughness (Hurst exponent 0.8, waves over a factor of 4 to 16 in length): `surfaces.asperity_layer` of the benchmarks of
+revision 869ed0dc.
 """
 
 from dataclasses import dataclass
@@ -33,7 +34,7 @@ class AsperityLayer:
 
     name: ClassVar[str] = "exponential"
     source: ClassVar[str] = (
-        "constants: docs/measured/surfaces/asperity_layer.md; the exponential: Persson 2007, "
+        "constants: fitted to solved contacts; the exponential: Persson 2007, "
         "doi:10.1103/PhysRevLett.99.125502; the elastic area: Persson 2001, doi:10.1063/1.1388626"
     )
     equations: ClassVar[Equations] = Equations(

@@ -124,13 +124,13 @@ class FittedSharing:
     pressed     Hertz's largest pressure over the hardness: asperities that yield are not pressed flat by the oil.
 
     `equations` states them. The constants were fitted over the ranges `FITTED`; `HALF_WIDTHS` are those of their 95 %
-    intervals (docs/measured/regression/curves.md).
+    intervals (`regression.curves` of the benchmarks of revision 869ed0dc).
     """
 
     name: ClassVar[str] = "fitted"
     source: ClassVar[str] = (
         "form of W_c: Zhou & Hoeprich, J. Tribol. 113 (1991) 590, doi:10.1115/1.2920664; "
-        "constants: benchmarks/regression/curves.py"
+        "constants: fitted to solved contacts"
     )
     equations: ClassVar[Equations] = Equations(
         (

@@ -66,7 +66,7 @@ class Logarithmic:
 class Measured:
     """The crown of bearing rollers as measured: straight over a third, its ends as deep as `ends` says.
 
-    Rollers of the bearings NU206 and 81212 have it within 0.03 of that depth: docs/measured/surfaces/finishes.md.
+    Rollers of the bearings NU206 and 81212 have it within 0.03 of that depth: docs/measured/surfaces.md.
     """
 
     name: ClassVar[str] = "measured"

@@ -5,7 +5,7 @@ they meet: the amplitude of their load cycle has a mean, a spread and a skewness
 
 Pressure of roughness that is pressed flat has the rms height E* slope / 2 (Persson, J. Chem. Phys. 115 (2001) 3840,
 doi:10.1063/1.1388626); quantiles: Wilson & Hilferty, PNAS 17 (1931) 684, doi:10.1073/pnas.17.12.684.
-Constants: benchmarks/stress/curves.py.
+Constants: `stress.curves` of the benchmarks of revision 869ed0dc.
 """
 
 import math

@@ -13,7 +13,7 @@ from contact_core.scene import Case
 from .model import Comparison, Kind, Outcome, Row, compared
 from .tables import read
 
-PAGE = "docs/measured/surfaces/asperity_load_share.md"
+PAGE = "docs/measured/surfaces.md"
 LEFT_OUT = "mk_caseB"  # its formula was written down from memory, for one contact
 LAMBDAS = (0.75, 1.25)  # of the table
 _THICKEST = 1.5  # lambda, beyond which fits fall to 0

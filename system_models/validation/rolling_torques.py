@@ -83,7 +83,7 @@ def _ball_rows() -> list[Row]:
             found.error * computed,
             Cause(
                 "solved films with an inlet full as far as the radius of the ball, not a third of it, have .71 to 1.08 "
-                "of the measured torques (docs/measured/machines/rolling.md); how full it was is not known",
+                "of the measured torques (docs/measured/machines.md#rolling-resistance); how full it was is not known",
                 0.45 * measured, measured,
             ),
         ))  # fmt: skip
@@ -99,7 +99,7 @@ def _roller_rows() -> list[Row]:
             relative(measured, READ), "read off a figure", found.error * found.torque,
             Cause(
                 "a bath may not keep every inlet full: with a layer of 1 to 3 um of oil before each roller the "
-                "contacts have .41 to 1.51 of the measured torque (docs/measured/machines/rolling.md); it "
+                "contacts have .41 to 1.51 of the measured torque (docs/measured/machines.md#rolling-resistance); it "
                 "was not measured",
                 measured, 2.6 * measured,
             ),

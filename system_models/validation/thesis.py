@@ -12,7 +12,7 @@ from .model import Array, Cause, Comparison, Kind, Outcome, Row, compared, exact
 
 STEP, STEPS = 60.0, 120  # s
 LATE = 0.9  # of the largest film: established
-PAGE = "docs/measured/thesis/validation.md"
+PAGE = "docs/measured/thesis.md"
 
 
 @dataclass(frozen=True)

@@ -93,7 +93,7 @@ UNIT = RADIUS * np.sqrt((10.0 / (2.2e-8 * MODULUS)) ** 4)
 
 @LIMITS
 def test_films_of_the_upwind_flow_converge_to_second_order_on_the_limit_of_finer_grids(ratio, load, limit):
-    """Limits in Moes' units: docs/measured/film/elliptical.md, 129, 257 nodes along the shorter side."""
+    """Limits in Moes' units: extrapolated from 129 and 257 nodes along the shorter side."""
     found = films(of_moes(load, 10.0, ratio), (33, 65, 129), flux="upwind") / UNIT
     order = np.log2((found[1] - found[0]) / (found[2] - found[1]))
     assert 1.8 < order < 2.2
@@ -115,7 +115,7 @@ def test_films_across_the_long_axis_are_those_of_the_formula(ratio, load):
 
 def test_slim_contacts_tend_to_a_film_without_leakage_round_the_tip():
     """H of b/a = 0.2 over that of the circle rises toward (p_H / sqrt(a))^(-1/2) with the load, where formulas stay at
-    0.3 (see docs/measured/film/elliptical.md).
+    0.3.
     """
     ratio = 0.08456
     slim, circle = (hertz_point(LOAD, RADIUS, k * RADIUS, MODULUS) for k in (ratio, 1.0))

@@ -1,14 +1,32 @@
-"""The solver of `benchmarks/surfaces/periodic_contact.py` against closed forms, and the spectra of its surfaces."""
+"""The solver of `tests/periodic_contact.py` against closed forms, and the spectra of its surfaces."""
 
 import numpy as np
 import pytest
 from comparison import approx
-
-from benchmarks.surfaces.asperity_theory import light_eggbox, westergaard
-from benchmarks.surfaces.periodic_contact import Band, PeriodicPlane, press
+from periodic_contact import Band, PeriodicPlane, press
 
 NODES = 128
 WAVE = np.cos(2.0 * np.pi * np.arange(NODES) / NODES)
+
+
+def westergaard(mean: float) -> tuple[float, float]:
+    """Return contact share and mean gap of a wave cos x under a mean pressure below that of full contact, 1/2.
+
+    2 a / lambda = (2 / pi) asin (p / p*)^(1/2), p* = pi E* amplitude / lambda (Johnson, Contact Mechanics, 1985,
+    doi:10.1017/CBO9781139171731, section 13.2). The gap integrates the compliance of a row of cracks,
+    d gap / dp = (amplitude / p*) ln(p / p*), from the amplitude at first touch.
+    """
+    ratio = mean / 0.5
+    return 2.0 / np.pi * float(np.arcsin(np.sqrt(ratio))), 1.0 - ratio + ratio * float(np.log(ratio))
+
+
+def light_eggbox(mean: float) -> float:
+    """Return the contact share of cos x cos y under a small mean pressure: Hertz's contact at each crest.
+
+    pi (3 p / (8 pi p*))^(2/3), p* = 2^(1/2) / 2 here (Johnson, Greenwood & Higginson, Int. J. Mech. Sci. 27 (1985) 383,
+    doi:10.1016/0020-7403(85)90029-3).
+    """
+    return float(np.pi * (3.0 * mean / (8.0 * np.pi * np.sqrt(0.5))) ** (2.0 / 3.0))
 
 
 def test_a_wave_touches_and_opens_as_westergaard_says():

@@ -116,7 +116,7 @@ def test_a_smooth_film_is_symmetric_across_the_entrainment():
     ],
 )
 def test_case_a_has_its_film_on_129_nodes_if_flow_is_fitted_and_half_of_it_if_not(flux, points, film, near, resolved):
-    """The limit of both is 14.36 nm: docs/measured/film/flux.md. Without the inlet resolved, the contact says so."""
+    """The limit of both is 14.36 nm: docs/measured/film.md. Without the inlet resolved, the contact says so."""
     scene = Scene.from_toml("azam_case_a", SMOOTH | {"film.points": str(points), "film.flux": flux})
     fields = solve(scene, scene.operation.point, initial_state(scene))
     assert fields.converged

@@ -56,7 +56,7 @@ def test_every_page_but_the_index_has_a_name_and_a_title_in_the_list(capsys: pyt
     assert main(["docs"]) == 0
     out = capsys.readouterr().out
     assert re.search(r"^  scenes +A scene of your own$", out, re.MULTILINE)
-    assert re.search(r"^  measured/film/flux +Flow through faces", out, re.MULTILINE)
+    assert re.search(r"^  measured/film +One contact at one instant", out, re.MULTILINE)
 
 
 @pytest.mark.parametrize("name", ["scenes", "how-to/scenes", "docs/how-to/scenes.md"])

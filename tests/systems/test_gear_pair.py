@@ -87,7 +87,7 @@ def test_the_energy_that_is_lost_is_in_the_gearbox_or_gone(record: Record) -> No
 
 
 def test_solids_carry_most_by_the_pitch_point_where_one_pair_carries_all_and_flanks_roll(record: Record) -> None:
-    """So does the deterministic level: docs/measured/machines/gear_friction.md, its stations."""
+    """So does the deterministic level: docs/measured/machines.md, its stations."""
     near = np.abs(record.positions - record.pair.pitch_point).argmin()
     for stage in record.stages:
         assert abs(record.along("contact_load_ratio")[stage.last].argmax() - near) <= 1

@@ -34,6 +34,8 @@ def test_links_commands_and_paths_of_a_page_exist(page: Path) -> None:
     assert [target for target in links if not resolves(page, target)] == []
     files = [f"{name.replace('.', '/')}.py" for name in re.findall(r"python -m (benchmarks[\w.]+\w)", text)]
     files += re.findall(rf"(?<![\w/.])((?:{'|'.join(FOLDERS)})/[\w/.-]*\w)", text)
+    if page.parent == DOCS / "measured":  # sections name files of the code that they were measured with
+        return
     new = [Path(name) for name in re.findall(r"^`(\S+)`, new:$", text, re.MULTILINE)]  # files of examples
     made = {str(path) for name in new for path in (name, *name.parents)}
     assert [name for name in files if not (ROOT / name).exists() and name not in made] == []
@@ -77,14 +79,6 @@ def test_every_equation_is_where_the_page_of_physics_says() -> None:
     assert len(places) > 50
     for file, names in places:
         assert set(re.findall(r"`([\w.]+)`", names)) <= definitions(ROOT / file), file
-
-
-@pytest.mark.parametrize("page", sorted((DOCS / "measured").rglob("*.md")), ids=lambda page: page.stem)
-def test_a_measured_page_lies_in_the_room_of_its_benchmark(page: Path) -> None:
-    (command, *_) = re.findall(r"python -m benchmarks\.([\w.]+)", page.read_text("utf-8"))
-    *rooms, name = command.split(".")
-    assert rooms == [*page.parent.relative_to(DOCS / "measured").parts]  # none of what no room has alone
-    assert page.stem.startswith(name)
 
 
 def test_benchmarks_import_nothing_from_tests() -> None:

@@ -5,23 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from comparison import approx
+from periodic_contact import Band, PeriodicPlane, press
 
-from benchmarks.surfaces.periodic_contact import Band, PeriodicPlane, press
 from contact_core.laws import asperity_layer
 from contact_core.laws.asperity_layer import AsperityLayer
 
 MODULUS, HARDNESS = 2.3e11, 4e9
 LAYER = AsperityLayer(20e-9, 4e-6)
-PAGE = Path(__file__).parents[2] / "docs/measured/surfaces/asperity_layer.md"
-
-
-def constants_of_the_page():
-    """Rows of the self-affine spectra of the law: hardness, p0 and h0 with their standard errors."""
-    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in PAGE.read_text("utf-8").splitlines()]
-    header = next(row for row in rows if "p0" in row)
-    wide = [row for row in rows[rows.index(header) + 1 :] if len(row) == len(header) and row[0].endswith("H 0.8")]
-    first = header.index("hardness")
-    return np.array([[float(cell) for cell in row[first : first + 5]] for row in wide])
+MEASURED = np.genfromtxt(Path(__file__).parents[1] / "data" / "asperity_layer.csv", delimiter=",", skip_header=4)
 
 
 def test_the_gap_under_the_pressure_at_a_height_is_the_height():
@@ -104,7 +95,7 @@ def test_heights_in_a_wrong_unit_are_told():
 def test_the_constants_lie_among_those_of_the_contacts():
     """Between the spectra's, each with two standard errors; h0 follows p0, so that the gap is checked, too."""
     unit = AsperityLayer(1.0, 2.0 * np.pi)
-    found = constants_of_the_page()
+    found = MEASURED
     for hardness in np.unique(found[:, 0]):
         p0, dp, h0, dh = found[found[:, 0] == hardness, 1:].T
         assert len(p0) == 2

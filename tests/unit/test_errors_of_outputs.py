@@ -10,7 +10,7 @@ from contact_core.quantities import ABSOLUTE, STATED, TABLE
 from contact_core.scene import Case
 from contact_core.state import changed, flag_of_errors
 
-# first blocks on fresh surfaces on 65 nodes and, of the same surfaces, on 257: rows of docs/measured/film/moving.md
+# first blocks on fresh surfaces on 65 nodes and, of the same surfaces, on 257: rows of docs/measured/film.md
 COARSE_AND_FINE = {
     ("azam_case_a", 1): {"contact_load_ratio": (0.6941, 0.6507), "friction": (0.09329, 0.08936), "h_c": (44.54, 49.67)},
     ("azam_case_a", 2): {"contact_load_ratio": (0.6336, 0.6126), "friction": (0.08691, 0.08486), "h_c": (49.02, 53.44)},
@@ -48,7 +48,7 @@ def test_errors_of_a_coarse_grid_cover_a_fine_one_and_a_tenth_of_them_would_not(
 
 
 def test_the_error_of_a_smooth_film_covers_the_shipped_scenes_and_a_tenth_of_it_would_not():
-    """Central films on the scenes' grids against 1025 nodes: docs/measured/film/flux.md."""
+    """Central films on the scenes' grids against 1025 nodes: docs/measured/film.md."""
     found = {1.02: 0.027, 2.03: 0.00097, 0.68: 0.176, 1.35: 0.005}  # by nodes across the inlet
     assert all(true <= inlet_error(nodes) for nodes, true in found.items())
     assert any(true > 0.1 * inlet_error(nodes) for nodes, true in found.items())

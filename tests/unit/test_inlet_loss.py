@@ -17,7 +17,7 @@ from contact_core.shapes import Line, Point
 
 RADIUS, STEEL, RUBBER = 10e-3, 230e9, 10e6
 CIRCLE, SLIM, WIDE, LINE = Point(RADIUS, RADIUS), Point(RADIUS, 3e-3), Point(RADIUS, 50e-3), Line(RADIUS, 1.0)
-# shape, U, G, W, and the loss of the central film with so many lengths of the inlet: docs/measured/film/inlet.md
+# shape, U, G, W, and the loss of the central film with so many lengths of the inlet: docs/measured/film.md
 MEASURED = {
     "light load": (CIRCLE, 1e-12, 4600.0, 1e-7, STEEL, {0.79: 0.211, 1.58: 0.079, 2.97: 0.0223, 5.93: 0.0036}),
     "heavy load": (CIRCLE, 1e-11, 4600.0, 1e-5, STEEL, {0.81: 0.253, 1.47: 0.120, 2.14: 0.065, 4.14: 0.0171}),

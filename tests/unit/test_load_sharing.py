@@ -21,10 +21,8 @@ BELOW = 0.3  # flattening of what is below the grid
 SLIP, PRESSED = 0.1, 0.2  # sliding over entrainment speed, Hertz's largest pressure over the hardness
 REST = BELOW, SLIP, PRESSED
 RATIOS = np.geomspace(1e-4, 1e2, 200)
-# a few points of the sweep: `python -m benchmarks.regression.curves fit` writes it
+# solved contacts of both cases of the thesis: some of those that the constants were fitted to
 GOLDEN = Path(__file__).parent.parent / "golden" / "load_sharing.csv"
-
-MEASURED = Path(__file__).parents[2] / "docs" / "measured" / "regression"
 
 
 @pytest.fixture(scope="module")
@@ -244,21 +242,6 @@ def test_shipped_constants_give_the_sweep_back_within_their_half_widths(golden):
     assert off.max() < 0.6
     area = LAW.area_ratio(golden["load_ratio"], golden["flattening"], golden["below"])
     np.testing.assert_allclose(area, golden["area_ratio"], atol=0.03)
-
-
-@pytest.mark.parametrize(("law", "pages"), [(FittedSharing, ("curves", "coverage")), (LineSharing, ("shapes",))])
-def test_shipped_constants_are_those_of_the_fit_on_the_page(law, pages):
-    """Rounded to two or three digits."""
-    text = "".join((MEASURED / f"{page}.md").read_text(encoding="utf-8") for page in pages)
-    rows = [line.strip("| ").split(" | ") for line in text.splitlines()]
-    fitted = {
-        name: (float(found), float(width)) for name, found, width, _ in (r for r in rows if r[0] in law.HALF_WIDTHS)
-    }
-    borrowed = {name for name in law.HALF_WIDTHS if name.startswith("exposure_")} if law is LineSharing else set()
-    assert set(fitted) == set(law.HALF_WIDTHS) - borrowed
-    for name, (found, width) in fitted.items():
-        assert getattr(law(), name) == approx(found, rel=1e-2), name
-        assert law.HALF_WIDTHS[name] == approx(width, rel=0.05), name
 
 
 @pytest.mark.parametrize("law", LAWS)

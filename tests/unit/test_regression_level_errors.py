@@ -11,7 +11,7 @@ from comparison import approx
 from contact_core import OperatingPoint, RangeFlag, Scene, advance, initial_state
 from contact_core.state import Mean
 
-# random contacts within the fit, beyond it, and rubbed for ten minutes: `python -m benchmarks.regression.truths`
+# random contacts within the fit, beyond it, and rubbed for ten minutes, by the deterministic level
 GOLDEN = Path(__file__).parent.parent / "golden" / "regression_level.json"
 # tribofilms of circles within the fit, after the seconds said with it, from new surfaces: each as `advance` has it
 TRIBOFILMS = GOLDEN.with_name("regression_level_tribofilms.json")
@@ -88,7 +88,7 @@ def test_beyond_the_fit_errors_are_as_wide_as_they_have_to_be(compared):
 
 
 def test_lines_that_have_rubbed_are_covered_and_errors_of_fresh_ones_would_not_do(compared):
-    """Of circles that have rubbed only half are: docs/measured/regression/shapes.md."""
+    """Of circles that have rubbed only half are, lines and ellipses all."""
     ratios = of_group(compared, "rubbed")
     assert (ratios <= 1.0).mean() >= 0.9
     assert (ratios <= 1.0 / 3.0).mean() < 0.85

@@ -187,7 +187,8 @@ def errors(scene: Scene) -> Iterator[str]:
         "error_load_ratio is that of contact_load_ratio, absolute. " + LEVELS[scene.film.fidelity].errors
     )
     yield paragraph("Measured errors, and the command of the repository that measures them:")
-    yield from _measured(scene, "errors")
+    for found in measured.ERRORS[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)]:
+        yield _measured(found)
 
 
 def assumptions(scene: Scene) -> Iterator[str]:
@@ -209,11 +210,10 @@ def assumptions(scene: Scene) -> Iterator[str]:
         yield paragraph("The scene has no intervals.")
 
 
-def _measured(scene: Scene, kind: str) -> Iterator[str]:
-    """Yield measured errors or costs of a scene's level."""
-    for found in measured.tables(kind)[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)]:
-        yield f"<p>{text(found.title)} (<code>{text(found.command)}</code>):</p>"
-        yield table(found.head, found.rows)
+def _measured(found: measured.Table) -> str:
+    when = f"measured on {found.measured}{', of older code' if found.older else ''}"
+    title = f"<p>{text(found.title)} (<code>{text(found.command)}</code>, {when}):</p>"
+    return title + table(found.head, found.rows)
 
 
 def steps(scene: Scene) -> Iterator[str]:
@@ -226,4 +226,4 @@ def steps(scene: Scene) -> Iterator[str]:
         "may differ in length; any length is allowed, zero too."
     )
     yield paragraph(LEVELS[scene.film.fidelity].steps(scene))
-    yield from _measured(scene, "costs")
+    yield _measured(measured.COSTS[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)])

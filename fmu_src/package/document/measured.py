@@ -1,29 +1,24 @@
-"""Measured errors and costs shown in the documentation, by level: the figures of `measured.toml`."""
+"""Measured errors and costs shown in the documentation, from measured.json.
 
-import tomllib
-from dataclasses import dataclass
-from functools import cache
-from importlib.resources import files
-from typing import Any
+`python -m benchmarks.house.fmu_figures` writes that file from the sections of `docs/measured`.
+"""
+
+import json
+from pathlib import Path
+from typing import NamedTuple
 
 
-@dataclass(frozen=True)
-class Table:
-    """Measured figures: title, the command and the page of docs/measured that they come from."""
+class Table(NamedTuple):
+    """Measured figures."""
 
     title: str
-    command: str
-    page: str
-    head: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
+    command: str  # that measures them
+    measured: str  # date
+    older: bool  # than the code
+    head: list[str]
+    rows: list[list[str]]
 
 
-@cache
-def tables(kind: str) -> dict[str, tuple[Table, ...]]:
-    """Return the tables of "errors" or of "costs" by level."""
-    found = tomllib.loads(files(__package__).joinpath("measured.toml").read_text("utf-8"))[kind]
-    return {level: tuple(map(_table, some)) for level, some in found.items()}
-
-
-def _table(given: dict[str, Any]) -> Table:
-    return Table(**given | {"head": tuple(given["head"]), "rows": tuple(map(tuple, given["rows"]))})
+_FOUND = json.loads(Path(__file__).with_name("measured.json").read_text(encoding="utf-8"))
+ERRORS = {level: tuple(Table(**each) for each in tables) for level, tables in _FOUND["errors"].items()}
+COSTS = {level: Table(**each) for level, each in _FOUND["costs"].items()}
