@@ -68,8 +68,8 @@ def carry_out(
     origin = {"title": name, "simulation_json": json.dumps(identity(system, settings))} | dict(attributes or {})
     checkpoint = _checkpoint(folder, system, settings, resume, listener)
     continues = resume and checkpoint is not None and checkpoint.exists()
-    if resume and not continues and (before := finished(results.find(origin, folder), folder, listener)) is not None:
-        return Finished(before, folder, reliable=not before.attrs.get(EXIT_CODE, 0))
+    if resume and not continues and (before := of_before(origin, folder, listener)) is not None:
+        return before
     if not continues:
         ask_before(folder, origin, force, listener)
     begin = monotonic()
@@ -104,6 +104,12 @@ def _checkpoint(
 def note_replaced(file: Path, listener: Listener) -> None:
     """Say that the checkpoint of an unfinished run will be lost."""
     listener.note(f"'{file}' of an unfinished run will be replaced; to continue from it, use {listener.anew}.")
+
+
+def of_before(origin: Mapping[str, str], folder: Path, listener: Listener) -> Finished | None:
+    """Return this very simulation if its result is there already."""
+    dataset = finished(results.find(origin, folder), folder, listener)
+    return None if dataset is None else Finished(dataset, folder, reliable=not dataset.attrs.get(EXIT_CODE, 0))
 
 
 def finished(dataset: xr.Dataset | None, folder: Path, listener: Listener) -> xr.Dataset | None:

@@ -8,10 +8,10 @@ import xarray as xr
 
 from contact_core.errors import ContactError
 from system_models.cli.listener import CONSOLE
-from system_models.runs.job import EXIT_CODE, finished
+from system_models.runs.job import EXIT_CODE, of_before
 from system_models.runs.listener import QUIET
 from system_models.runs.replacing import ask_before
-from system_models.store.results import find, write, write_csv
+from system_models.store.results import write, write_csv
 
 
 def result(scene: str) -> xr.Dataset:
@@ -39,10 +39,10 @@ def test_the_result_of_another_scene_is_replaced_by_force_alone(
 
 
 @pytest.mark.parametrize("code", [0, 1])
-def test_afinished_run_ends_again_as_it_ended(code: int, tmp_path: Path) -> None:
+def test_a_finished_run_ends_again_as_it_ended(code: int, tmp_path: Path) -> None:
     """`--resume` of a run whose steps have not converged does not call it right."""
     write(result("mine").assign_attrs({EXIT_CODE: code}), tmp_path)
-    before = finished(find({"scene": "mine"}, tmp_path), tmp_path, QUIET)
+    before = of_before({"scene": "mine"}, tmp_path, QUIET)
     assert before is not None
-    assert before.attrs[EXIT_CODE] == code
-    assert finished(find({"scene": "other"}, tmp_path), tmp_path, QUIET) is None
+    assert before.exit_code == code
+    assert of_before({"scene": "other"}, tmp_path, QUIET) is None
