@@ -250,12 +250,17 @@ class AstmD341:
     @property
     def error(self) -> str:
         """Sentence on constants that contradict each other, or an empty text."""
-        if self.viscosity_100 < self.viscosity_40:
-            return ""
-        return (
-            f"lubricant.viscosity.viscosity_100 = {self.viscosity_100:g} m2/s must be below viscosity_40 = "
-            f"{self.viscosity_40:g} m2/s: oils thin when they warm. Exchange the two if they were mixed up."
-        )
+        if self.viscosity_100 >= self.viscosity_40:
+            return (
+                f"lubricant.viscosity.viscosity_100 = {self.viscosity_100:g} m2/s must be below viscosity_40 = "
+                f"{self.viscosity_40:g} m2/s: oils thin when they warm. Exchange the two if they were mixed up."
+            )
+        if self.bend_100 < self.bend_40:
+            return (
+                f"lubricant.viscosity.bend_100 = {self.bend_100:g} must be at least bend_40 = {self.bend_40:g}: under "
+                "pressure the oil would thicken when it warms. Give both."
+            )
+        return ""
 
     def log_viscosity(self, temperature: Numbers) -> Numbers:
         """Return ln(viscosity / 63.1 uPa s) at p = 0."""

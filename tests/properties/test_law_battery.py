@@ -6,7 +6,7 @@ from typing import Any, get_type_hints
 import numpy as np
 import pytest
 from comparison import approx
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -162,6 +162,7 @@ def test_a_viscosity_takes_a_field_of_temperatures(law, pressure, temperature):
 
 @given(laws_of("viscosity"), pressures, st.floats(230.0, 490.0))
 def test_a_viscosity_falls_with_temperature(law, pressure, temperature):
+    assume(not getattr(law, "error", ""))
     assert np.all(law(pressure, temperature + 5.0) <= law(pressure, temperature))
 
 

@@ -153,6 +153,7 @@ def test_the_example_of_an_oil_of_ones_own_is_one_table_that_a_scene_takes():
     ("key", "value", "said"),
     [
         ("viscosity_100", "60 mm2/s", ["viscosity_100 = 6e-05 m2/s", "viscosity_40 = 4.6e-05 m2/s", "Exchange"]),
+        ("bend_40", "0.2", ["bend_100 = 0.0", "at least bend_40 = 0.2", "Give both"]),
         ("viscosity_40", "46 mm2", ["viscosity_40 = '46 mm2'", "wrong unit", "m2/s"]),
         ("viscosity_40", "46", ["no unit", "m2/s"]),
         ("density", "0.87 kg/m3", ["lubricant.viscosity.density = 0.87 kg/m3", "at least 600"]),

@@ -5,6 +5,7 @@ import pytest
 
 from contact_core import OperatingPoint, Outputs, Scene
 from contact_core.film import FILMS
+from contact_core.film.regression import CORRECTIONS
 from contact_core.quantities import INPUTS, LEVELS, OF_CALLER, OUTPUTS, TABLE, out_of_range, parameter
 from contact_core.scene import tunables, units
 
@@ -26,8 +27,9 @@ def test_the_outputs_have_the_kinds_of_the_table():
 
 
 def test_every_quantity_is_told_by_a_level_there_is():
-    levels = {film.name for film in FILMS}
+    levels = {"deterministic", *CORRECTIONS.values()}
     assert set(LEVELS) == levels
+    assert {film.name for film in FILMS} <= levels
     assert all(q.levels and set(q.levels) <= levels for q in QUANTITIES)
     assert all("deterministic" in q.levels for q in QUANTITIES)
 
