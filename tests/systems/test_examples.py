@@ -72,6 +72,7 @@ def test_point_contact(example: Example) -> None:
     assert abs(contact.y[row]) > 0.6 * half_width > abs(contact.x[column])
 
 
+@pytest.mark.long
 def test_roller_ends(example: Example) -> None:
     """Hertz's line in the middle; the cylinder rises at its ends, Lundberg's profile does not."""
     names = example("roller_ends")
@@ -195,6 +196,7 @@ def test_cosimulation(example: Example) -> None:
     assert 1.0 / np.diff(rises).mean() == approx(math.sqrt(20e3 / 0.5) / (2.0 * math.pi), rel=0.05)
 
 
+@pytest.mark.long
 def test_sweep(example: Example) -> None:
     """A run of the sweep is that of the scene alone; a rougher disc gives the solids more, a higher load less."""
     end = example("sweep")["end"]

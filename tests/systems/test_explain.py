@@ -191,7 +191,12 @@ def test_the_command_prints_it_and_refuses_errors(capsys):
         explain("mtm_zddp", {"wear.bar": "1"})
 
 
-@pytest.mark.parametrize("name", shipped())
+OF_A_KIND = ("mtm_rig", "bearing_209", "gear_fzg_c")  # the others of their kinds, and what takes as long, in .ci/full
+
+
+@pytest.mark.parametrize(
+    "name", [name if name in OF_A_KIND else pytest.param(name, marks=pytest.mark.long) for name in shipped()]
+)
 def test_of_a_machine_the_command_tells_the_contact_as_its_file_changes_it(name, capsys):
     assert main(["explain", name, "--set", "contact.control.longest=100 s"]) == 0
     said = " ".join(capsys.readouterr().out.split())

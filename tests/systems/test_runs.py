@@ -56,7 +56,8 @@ def test_the_result_of_another_scene_is_replaced_by_force_alone(tmp_path: Path) 
 
 
 def test_a_machine_runs_in_one_call_with_its_checks(tmp_path: Path) -> None:
-    changes = {"simulate.stop_time": "2 s", "simulate.step_size": "0.5 s"}
+    coarse = {f"contact.surface_{body}.correlation_length": "32 um" for body in (1, 2)} | {"contact.film.points": "17"}
+    changes = coarse | {"simulate.stop_time": "2 s", "simulate.step_size": "0.5 s"}
     done = run_machine("mtm_rig", tmp_path, changes)
     assert set(done.checks) == {"resolved", "corrected"}
     assert all((tmp_path / f"{name}.nc").exists() for name in ("result", *done.checks))
