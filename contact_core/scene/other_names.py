@@ -1,7 +1,13 @@
-"""Other names that the field has for the keys of a scene, and what to write in their place."""
+"""Other names that the field, or an earlier version, has for the keys of a scene, and what stands in their place."""
 
+import logging
 import re
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+_log = logging.getLogger(__name__)
+# models of film in earlier versions, and the film.correction of the regression level that they stand for
+_FORMER = {"auto": "blocks", "map": "map"}
 
 
 class Meant(NamedTuple):
@@ -126,3 +132,31 @@ def meant(path: str, key: str) -> Meant | None:
             if name in names:
                 return said
     return None
+
+
+def with_correction(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a scene's table with film.correction in place of a model that earlier versions had for it."""
+    film = table.get("film")
+    former = film.get("model") if isinstance(film, Mapping) else film
+    if not isinstance(former, str) or former not in _FORMER:
+        return dict(table)
+    rest = film if isinstance(film, Mapping) else {}
+    return {**table, "film": {**rest, "model": "regression", "correction": _correction_of(former)}}
+
+
+def current(overrides: Mapping[str, str]) -> dict[str, str]:
+    """Return overrides with film.correction in place of a model that earlier versions had for it."""
+    found: dict[str, str] = {}
+    for key, value in overrides.items():
+        if key in ("film", "film.model") and value in _FORMER:
+            found |= {"film.model": "regression", "film.correction": _correction_of(value)}
+        else:
+            found[key] = value
+    return found
+
+
+def _correction_of(former: str) -> str:
+    """Return the film.correction that a former model of film stands for, with a note."""
+    correction = _FORMER[former]
+    _log.warning("film.model = '%s' is film.model = 'regression' with film.correction = '%s'.", former, correction)
+    return correction

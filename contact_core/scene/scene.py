@@ -21,9 +21,10 @@ from .height_map import HeightMap
 from .heights import Heights
 from .intervals import applicable
 from .operation import OperatingPoint
+from .other_names import with_correction
 from .problems import TableError
 from .surface import SEEDS
-from .toml import build, completed, did_you_mean, given, located, with_correction
+from .toml import build, completed, did_you_mean, given, located
 from .units import parse
 
 _TO_START = "All else has a default; `tribofmu new NAME` writes a scene to start from."

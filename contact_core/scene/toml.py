@@ -1,7 +1,6 @@
 """TOML to records, with a sentence for everything that does not fit, and back."""
 
 import difflib
-import logging
 import pickle
 import re
 import tomllib
@@ -20,13 +19,12 @@ from ..laws.base import Model
 from ..laws.offered import laws_of
 from ..shapes import GEOMETRIES
 from . import ensemble, units
-from .other_names import meant
+from .other_names import current, meant
 from .problems import Missing, TableError
 from .records import ACCURACY, CHOSEN
 from .self_affine import SelfAffine
 from .surface import Surface
 
-_log = logging.getLogger(__name__)
 _KINDS: dict[str, tuple[type[Model], ...]] = {
     "film": FILMS,
     "geometry": GEOMETRIES,
@@ -39,8 +37,6 @@ DATA_SHEET = "viscosity_40 [m2/s], viscosity_100 [m2/s] and density [kg/m3] at 1
 NO_UTF_8 = "it is not in UTF-8. Save it as UTF-8."  # in place of Python's words on a byte
 _TOO = {"operation.duration": " `tribofmu run` takes it as --hours, too."}
 _OF_FINISH = ("rq", "correlation_length", "correlation_length_across", "microroughness")
-# models of film in earlier versions, and the film.correction of the regression level that they stand for
-_FORMER = {"auto": "blocks", "map": "map"}
 _SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
 
 
@@ -91,7 +87,7 @@ def given(source: str | Path, overrides: Mapping[str, str]) -> tuple[dict[str, A
     """Return a scene's tables with `overrides`, of dotted keys, and the folders in which its files are looked for."""
     folders = (folder_of(source), Path())
     table = located(ensemble.taken(read_table(source)), *folders)
-    changes = {full_key(key, value): value for key, value in _current(overrides).items()}
+    changes = {full_key(key, value): value for key, value in current(overrides).items()}
     for key, value in sorted(changes.items(), key=override_order):
         path, _, last = key.rpartition(".")
         if key in ensemble.FILES:
@@ -101,34 +97,6 @@ def given(source: str | Path, overrides: Mapping[str, str]) -> tuple[dict[str, A
     if isinstance(table.get("intervals"), Mapping):
         table["intervals"] = still_assumed(flat(table["intervals"]), changes)
     return table, folders
-
-
-def with_correction(table: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a scene's table with film.correction in place of a model that earlier versions had for it."""
-    film = table.get("film")
-    former = film.get("model") if isinstance(film, Mapping) else film
-    if not isinstance(former, str) or former not in _FORMER:
-        return dict(table)
-    rest = film if isinstance(film, Mapping) else {}
-    return {**table, "film": {**rest, "model": "regression", "correction": _correction_of(former)}}
-
-
-def _current(overrides: Mapping[str, str]) -> dict[str, str]:
-    """Return overrides with film.correction in place of a model that earlier versions had for it."""
-    found: dict[str, str] = {}
-    for key, value in overrides.items():
-        if key in ("film", "film.model") and value in _FORMER:
-            found |= {"film.model": "regression", "film.correction": _correction_of(value)}
-        else:
-            found[key] = value
-    return found
-
-
-def _correction_of(former: str) -> str:
-    """Return the film.correction that a former model of film stands for, with a note."""
-    correction = _FORMER[former]
-    _log.warning("film.model = '%s' is film.model = 'regression' with film.correction = '%s'.", former, correction)
-    return correction
 
 
 def still_assumed(intervals: Mapping[str, Any], changes: Iterable[str]) -> dict[str, Any]:

@@ -314,7 +314,7 @@ class Iteration:
             reynolds.residual(self.f, nowhere, *balance, self.carried.flux, *q.terms, missing, *cavities_and_inlet)
             return missing
         reynolds.residual(self.f, nowhere, *balance, self.flow.carried, *q.terms, missing, None, 1)
-        return missing if q.slow_mass is not None else np.where(self.p <= 0.0, 0.0, missing)
+        return missing if self.marching else np.where(self.p <= 0.0, 0.0, missing)
 
     def kept(self, found: Solution) -> Solution:
         """Return a copy of an assessed solution that is independent of the scratch arrays."""
