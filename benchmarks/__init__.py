@@ -13,7 +13,7 @@ thesis      the shipped cases against the thesis that they are from
 machines    ball bearings, gear pairs, error of the coupling
 coupling    the co-simulation master, importers of its machines
 fmu         cost of a step
-house       faults put into the code, arguments, docs/how_good.md
+house       faults put into the code, arguments, the tables of docs/trust.md
 models      small FMUs with exact solutions, for benchmarks and tests
 hosts       programs that load FMUs, and importers of SSP, for benchmarks and tests
 

@@ -218,11 +218,11 @@ def _alone() -> Iterator[None]:
 
 
 def refresh() -> None:
-    """Write the pages that say what is of older code: of all rooms, docs/how_good.md, an FMU's, and all that link to sections."""
-    from benchmarks.house import fmu_figures, how_good  # need this module
+    """Write the pages that say what is of older code: of all rooms, docs/trust.md, an FMU's, and all that link to sections."""
+    from benchmarks.house import fmu_figures, trust  # need this module
 
     sections.render(note)
-    how_good.write()
+    trust.write()
     fmu_figures.write()
     for page in sections.citing():
         page.write_text(sections.marked(page.read_text(encoding="utf-8"), note), encoding="utf-8")

@@ -2,6 +2,6 @@
 
 faults            faults put into the code, and the tests that notice them
 stays             functions through which operating point, scene and state travel
-how_good          docs/how_good.md, written from the sections
+trust             the tables of docs/trust.md, written from the sections
 bibliography      docs/bibliography.md
 """

@@ -1,7 +1,7 @@
 """Tables of sections of docs/measured, and the figures in their cells."""
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -82,6 +82,11 @@ def number(cell: str) -> float:
     return float(found[0])
 
 
+def numbers(cell: str) -> list[float]:
+    """All numbers of a cell."""
+    return [float(found) for found in re.findall(r"\d+(?:\.\d+)?(?:e[-+]?\d+)?", cell)]
+
+
 def per_cent(share: float) -> str:
     """A share in per cent."""
     return f"{100.0 * share:.0f} %"
@@ -99,6 +104,10 @@ def range_of(cells: Iterable[str], say: Callable[[float], str]) -> tuple[str, st
     return say(min(numbers)), say(max(numbers))
 
 
-def line_of(cells: Iterable[str]) -> str:
-    """A row of a table."""
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
+    """A table in Markdown."""
+    return [_line(heads), "|" + "---|" * len(heads), *map(_line, rows)]
+
+
+def _line(cells: Iterable[str]) -> str:
     return f"| {' | '.join(cells)} |"

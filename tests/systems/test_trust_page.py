@@ -1,4 +1,4 @@
-"""Figures of docs/how_good.md are those of its pages, the worst beside the best, and pages agree with themselves."""
+"""Numbers of docs/trust.md are those of the sections that it names, and sections agree with themselves."""
 
 import re
 import shutil
@@ -10,8 +10,8 @@ from comparison import approx
 
 from benchmarks import sections
 from benchmarks.film import peers
-from benchmarks.house.how_good import PATH, written
-from benchmarks.house.tables import Pages, number
+from benchmarks.house.tables import Pages, number, numbers
+from benchmarks.house.trust import MARKED, PATH, written
 from benchmarks.thesis.page import KINDS, NAMES, explained
 from benchmarks.thesis.rows import VERDICTS, Judged
 
@@ -19,6 +19,8 @@ ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 README = (ROOT / "README.md").read_text("utf-8")
 PAGES = Pages()
+TEXT = PATH.read_text("utf-8")
+BY_HAND = [line for line in MARKED.sub("", TEXT).splitlines() if sections.LINK.search(line)]
 UNITS = r"(?:%|[mu]s\b|s\b|MB\b|kB\b|WU\b|times\b|work units|seconds|minutes)"
 
 
@@ -39,8 +41,19 @@ def section(name: str) -> str:
     return sections.read(name).text
 
 
-def test_the_page_is_the_one_that_the_pages_give() -> None:
-    assert PATH.read_text("utf-8").splitlines() == written(PAGES).splitlines()
+def test_the_tables_are_those_that_the_sections_give() -> None:
+    assert written(TEXT, PAGES) == TEXT
+
+
+@pytest.mark.parametrize("line", BY_HAND, ids=lambda line: line[2:30])
+def test_a_number_written_by_hand_is_in_a_section_that_its_line_names(line: str) -> None:
+    """As rounded there, or a share in per cent."""
+    linked = {(room, anchor) for _, room, anchor, _ in sections.LINK.findall(line)}
+    known = [one for part in sections.every() if (part.room, part.anchor) in linked for one in numbers(part.text)]
+    prose = re.sub(r"`[^`]*`|\]\([^)]*\)", "", line)
+    for word in re.findall(r"(?<![\w.])\d+(?:\.\d+)?(?!\w)", prose):
+        digits = len(word.partition(".")[2])
+        assert any(round(scale * one, digits) == float(word) for one in known for scale in (1, 100)), word
 
 
 def test_figures_of_a_measurement_stand_on_that_page_and_not_in_readme() -> None:
@@ -57,9 +70,9 @@ def test_figures_of_a_measurement_stand_on_that_page_and_not_in_readme() -> None
             "speed_error",
             r"(_zddp, two hours \| regression \| - \| [\d.]+ \| - \| )[\d.]+",
             r"\g<1>46.8",
-            "| 46.8 % (",
+            " to 46.8 (",
         ),
-        ("surfaces/evolution", r"(\| mixed \| [^(]*)\(\d\.\d+\)", r"\g<1>(0.01)", "| 1 % (mu) |"),
+        ("surfaces/evolution", r"(\| mixed \| [^(]*)\(\d\.\d+\)", r"\g<1>(0.01)", "; mu 1 % |"),
         ("film/moving", r"(\| mtm_zddp \| 1 \| 257 \| )[\d.]+", r"\g<1>0.1", " % (W_c)"),
     ],
 )
@@ -71,7 +84,7 @@ def test_a_worse_figure_of_a_section_becomes_the_worst(
     text, count = re.subn(old, new, path.read_text("utf-8"), count=1)
     assert count == 1
     path.write_text(text, "utf-8")
-    changed = set(written(Pages(tmp_path / "kept")).splitlines()) - set(written(PAGES).splitlines())
+    changed = set(written(TEXT, Pages(tmp_path / "kept")).splitlines()) - set(TEXT.splitlines())
     assert any(said in line for line in changed), changed
 
 
