@@ -3,8 +3,12 @@
 import ast
 import re
 from pathlib import Path
+from types import ModuleType
 
 import pytest
+
+import contact_core
+from system_models import master, runs
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -60,6 +64,14 @@ def test_the_index_lists_every_page_once() -> None:
     listed = re.findall(r"^- \[.*?\]\(([^)]+\.md)\)", index.read_text("utf-8"), re.MULTILINE)
     pages = [str(page.relative_to(DOCS)) for page in PAGES if DOCS in page.parents and page != index]
     assert sorted(listed) == sorted(pages)
+
+
+@pytest.mark.parametrize("package", [contact_core, master, runs], ids=lambda package: package.__name__)
+def test_the_page_of_the_api_has_every_public_name(package: ModuleType) -> None:
+    text = (DOCS / "api.md").read_text("utf-8")
+    listed = set(re.findall(r"auto(?:class|function):: (\w+)", text))
+    errors = {name for name in package.__all__ if name.endswith("Error")}  # by their module
+    assert set(package.__all__) - errors - listed == set()
 
 
 def definitions(path: Path) -> set[str]:
