@@ -14,7 +14,7 @@ from contact_core.film import FILMS
 from contact_core.laws import SLOTS
 from contact_core.laws.asperity_layer import AsperityLayer
 from contact_core.laws.equations import Equations
-from contact_core.laws.symbols import COMMON, explained
+from contact_core.laws.symbols import explained
 from contact_core.scene import SelfAffine, Surface
 from contact_core.scene.records import Lubricant
 from contact_core.shapes import GEOMETRIES
@@ -53,8 +53,8 @@ is off. Behind them stand formulas of [Hertz's contacts](#hertzs-contacts), [fil
 compute them state them.
 The page is written from the code (`python -m system_models.explain.collection > docs/equations.md`), and tests hold the
 laws against the equations as they stand here. `tribofmu explain SCENE` shows those of one scene, with its numbers. What
-goes beyond laws, methods and outputs, is in [physics](physics.md); symbols without a field are in the table at the
-[end](#symbols-of-all-laws), those of several pages in the [glossary](glossary.md#symbols). All is in SI.
+goes beyond laws, methods and outputs, is in [physics](physics.md); symbols that laws share are in the
+[glossary](glossary.md#symbols). All is in SI.
 """
 
 
@@ -73,9 +73,7 @@ def page() -> str:
         for law in laws:
             lines += _law(law)
     lines += sections()
-    lines += ["## Symbols of all laws", "", "| symbol | unit | meaning |", "|---|---|---|"]
-    lines += [f"| {inline(symbol)} | {unit or '1'} | {text} |" for symbol, (unit, text) in COMMON.items()]
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines).rstrip() + "\n"
 
 
 def _law(law: Any) -> Iterator[str]:

@@ -8,11 +8,13 @@ from matplotlib.mathtext import MathTextParser
 
 from contact_core.film import FILMS
 from contact_core.laws import SLOTS
+from contact_core.laws.symbols import COMMON
 from contact_core.shapes import GEOMETRIES
 from system_models.explain.collection import page
 from system_models.explain.latex import latex
 
-PAGE = (Path(__file__).parents[2] / "docs" / "equations.md").read_text("utf-8")
+DOCS = Path(__file__).parents[2] / "docs"
+PAGE = (DOCS / "equations.md").read_text("utf-8")
 
 
 def test_the_page_is_what_the_laws_say_today():
@@ -24,6 +26,18 @@ def test_the_page_has_every_law_level_and_shape():
     laws = [law.name for laws in SLOTS.values() for law in laws]
     known = [*laws, *(shape.name for shape in GEOMETRIES), *(film.name for film in FILMS)]
     assert sorted(headings) == sorted([*known, "gaussian", "self_affine", "exponential"])
+
+
+def test_the_glossary_has_every_symbol_that_laws_share_with_its_unit():
+    """A row may have several: `p_f, p_s`, with one unit or one each; symbols are in its first or second column."""
+    rows = [line.strip("| ").split(" | ") for line in (DOCS / "glossary.md").read_text("utf-8").splitlines()]
+    known = set()
+    for first, second, third, *_ in (row for row in rows if len(row) > 3):
+        for names, units in ((first, second), (second, third)):
+            symbols, each = names.split(", "), units.split(", ")
+            known |= set(zip(symbols, each if len(each) == len(symbols) else len(symbols) * each, strict=False))
+    shared = {(symbol.translate(str.maketrans("′", "'", "{}")), unit or "1") for symbol, (unit, _) in COMMON.items()}
+    assert shared - known == set()
 
 
 @pytest.mark.parametrize("every", [5, pytest.param(1, marks=pytest.mark.long)])
