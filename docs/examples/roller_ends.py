@@ -1,10 +1,10 @@
-"""Why rollers have a profile: pressure along the axis, nearly cylindrical and with Lundberg's profile."""
+"""Why rollers have a profile: pressure along the axis, by the shape of the ends."""
 
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 
-from contact_core import Logarithmic, line_contact
+from contact_core import Logarithmic, Measured, Rounded, line_contact
 
 LENGTH = 4e-3  # m
 steel_and_oil = {
@@ -18,8 +18,9 @@ steel_and_oil = {
 }
 long_line = line_contact(**steel_and_oil)
 rollers = {
-    "2 um deep (logarithmic)": Logarithmic(2e-6),
-    "0.2 um deep: nearly cylindrical": Logarithmic(0.2e-6),
+    "logarithmic, 2 um deep": Logarithmic(2e-6),
+    "as measured on rollers, 11 um deep": Measured(),
+    "cylinder, edges rounded by 1 mm": Rounded(straight=3.8e-3, radius=1e-3),
 }
 found = {
     name: line_contact(length=LENGTH, profile=profile, grid=129, **steel_and_oil) for name, profile in rollers.items()

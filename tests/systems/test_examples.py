@@ -74,12 +74,13 @@ def test_point_contact(example: Example) -> None:
 
 @pytest.mark.long
 def test_roller_ends(example: Example) -> None:
-    """Hertz's line in the middle; the cylinder rises at its ends, Lundberg's profile does not."""
+    """Hertz's line in the middle; the cylinder rises at its ends, Lundberg's profile and the measured one do not."""
     names = example("roller_ends")
-    crowned, straight = names["found"].values()
+    crowned, measured, straight = names["found"].values()
     hertz = math.sqrt(300e3 * 230e9 / (2.0 * math.pi * 8e-3))
     assert names["long_line"].pressure_max == approx(hertz, rel=0.05)
     assert crowned.pressure_max < 1.15 * hertz
+    assert measured.pressure_max < 1.3 * hertz
     assert straight.pressure_max > 2.0 * hertz
     assert abs(straight.y[straight.pressure.max(axis=1).argmax()]) == approx(2e-3, rel=0.05)
 
@@ -139,6 +140,21 @@ def test_zddp(example: Example) -> None:
     assert runs["ZDDP"][-1].wear_depth_1 < 0.5 * runs["without"][-1].wear_depth_1
     assert 20e-9 < runs["ZDDP"][-1].tribofilm_2 < 200e-9
     assert runs["without"][-1].tribofilm_2 == 0.0
+
+
+def test_laws(example: Example) -> None:
+    """Less oil, more on the solids; a tribofilm that wears first saves the steel; the ratio of ISO/TR 13989-1."""
+    ends = example("laws")["ends"]
+    shipped, layer = ends["as shipped"], ends["a layer of 5 nm of oil"]
+    assert layer.h_c < shipped.h_c
+    assert layer.contact_load_ratio > shipped.contact_load_ratio
+    assert (
+        ends["tribofilm wears first"].wear_depth_1 < 0.1 * shipped.wear_depth_1
+    )  # K of the film: a tenth of the steel's
+    hot = ends["scuffing"]
+    assert hot.scuffing_ratio == approx((hot.contact_temperature_max - 353.15) / (152.0 - 80.0), rel=1e-9)
+    damages = [ends[f"damage: {law}"].damage_2 for law in ("Dang Van", "Basquin", "Morrow")]
+    assert 0.0 < max(damages) < 3.0 * min(damages)  # one steel's lives, in three forms
 
 
 def test_own_law(example: Example) -> None:
