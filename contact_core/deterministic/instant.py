@@ -18,7 +18,8 @@ from .oil_temperature import left_behind, sheared, solve_flow, warmed
 
 Array = NDArray[np.float64]
 
-AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
+_AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
+_SLIDE = 0.5  # way by which rough bodies slide past each other in an instant, at most, over their correlation length
 
 
 @dataclass(frozen=True)
@@ -171,11 +172,31 @@ def solve_instant(
     )
 
 
+def near_rolling(case: Case) -> bool:
+    """Return True if no body runs far ahead of the oil."""
+    return case.fastest <= _AHEAD * abs(case.op.entrainment_speed)
+
+
 def instant_time(case: Case) -> float:
-    """Return the time [s] from instant to instant: of oil, or of a body that runs far ahead of it, by so many nodes."""
-    entrained = abs(case.op.entrainment_speed)
-    leading = entrained if case.fastest <= AHEAD * entrained else case.fastest
-    return case.scene.control.nodes_per_instant * case.scene.film.spacing / leading
+    """Return the time [s] from instant to instant of a block."""
+    return nodes_per_instant(case) * case.scene.film.spacing / _leading(case)
+
+
+def nodes_per_instant(case: Case) -> float:
+    """Return the way of the oil, or of a body that runs far ahead of it, from instant to instant, in nodes.
+
+    That of the scene, or less where rough bodies would slide too far past each other.
+    """
+    asked, spacing = case.scene.control.nodes_per_instant, case.scene.film.spacing
+    rougher, sliding = case.sides[case.scene.rougher].surface, abs(case.op.sliding_speed)
+    if rougher.smooth or sliding == 0.0:
+        return asked
+    return min(asked, _SLIDE * max(rougher.length / spacing, 1.0) * _leading(case) / sliding)
+
+
+def _leading(case: Case) -> float:
+    """Return the speed [m/s] of the oil, or of a body that runs far ahead of it."""
+    return abs(case.op.entrainment_speed) if near_rolling(case) else case.fastest
 
 
 def _pressed(case: Case, faced: FacingSurfaces) -> Instant:

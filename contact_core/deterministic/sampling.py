@@ -19,7 +19,7 @@ from ..progress import tell
 from ..scene import Case, Scene
 from ..state import ContactState
 from .accumulator import Accumulator
-from .instant import AHEAD, Transient, instant_time, solve_instant
+from .instant import Transient, instant_time, near_rolling, nodes_per_instant, solve_instant
 from .subsurface import begins_anew, is_whole, of_a_pass, pass_goes_on, steps_of_a_pass
 from .transient import dry_instant, next_instant, rolled
 
@@ -86,14 +86,16 @@ def sample_mixed(
     elif same and (any(jumps) or pass_goes_on(case, state, same) or not (jumping and case.sides[smoother].moves)):
         unsampled = 0
     elif same:
-        state, unsampled = rolled(scene, state, jumps_of(case, smoother, 1.0)), _instants(scene, _CALMING)
+        state, unsampled = rolled(scene, state, jumps_of(case, smoother, 1.0)), _instants(case, _CALMING)
     length = case.sides[scene.rougher].surface.length / scene.film.spacing
-    stride = max(1, round(length / scene.control.nodes_per_instant))  # as many jumps on the way on every grid
-    sampled = mixed_instants(scene)
+    stride = max(1, round(length / nodes_per_instant(case)))  # as many jumps on the way on every grid
+    sampled = _instants(case, _sampled_nodes(scene))
     for k in range(-unsampled, sampled):
         tell("instant", unsampled + k + 1, unsampled + sampled)
         jump_now = k % stride == 0
         moves = [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)]
+        if jump_now and any(jumps) and near_rolling(case) and state.film:
+            state = replace(state, film=replace(state.film, gap=np.zeros((1, 1))))  # the gap before is of other bodies
         settled = 2 * k >= -unsampled  # enough to tell which points are exposed, and how warm they are
         state, fields = next_instant(case, state, moves, Transient(dt, 0, _ITERATIONS, heated=settled))
         if settled:
@@ -122,9 +124,9 @@ def first_film(case: Case, state: ContactState) -> FilmState:
     return solve_instant(case, state, dry=True).film
 
 
-def _instants(scene: Scene, nodes: float) -> int:
+def _instants(case: Case, nodes: float) -> int:
     """Return the instants in which the oil moves by so many nodes."""
-    return math.ceil(nodes / scene.control.nodes_per_instant)
+    return math.ceil(nodes / nodes_per_instant(case))
 
 
 def settling_time(case: Case) -> float:
@@ -136,14 +138,14 @@ def settling_instants(case: Case) -> int:
     """Return the instants until the film has settled."""
     fastest, entrained = case.fastest, abs(case.op.entrainment_speed)
     across = math.ceil(_PASSAGE * case.hertz.a / case.scene.film.spacing)
-    if fastest > AHEAD * entrained:
+    if not near_rolling(case):
         across = min(math.ceil(across * fastest / entrained), _MOST_SETTLING) if entrained > 0.0 else _MOST_SETTLING
-    return _instants(case.scene, across)
+    return _instants(case, across)
 
 
-def mixed_instants(scene: Scene) -> int:
-    """Return the sampled instants of a mixed block: by default a sixteenth of a pass, whatever the grid."""
-    return _instants(scene, scene.control.mixed_instants or math.ceil((scene.film.points - 1) / 16))
+def _sampled_nodes(scene: Scene) -> int:
+    """Return the way of the oil in a mixed block, in nodes: by default a sixteenth of a pass, whatever the grid."""
+    return scene.control.mixed_instants or math.ceil((scene.film.points - 1) / 16)
 
 
 def likeness(case: Case, count: int, driver: str) -> float:
@@ -162,7 +164,7 @@ def blocks_per_pass(scene: Scene, driver: str) -> float:
     """Return how many blocks it takes until the sampled instants make up one pass of a surface point."""
     if driver == "dry":
         return _DRY_PASS / scene.control.dry_instants
-    return (scene.film.points - 1) / (mixed_instants(scene) * scene.control.nodes_per_instant)
+    return (scene.film.points - 1) / _sampled_nodes(scene)
 
 
 def jumps_of(case: Case, index: int, most: float = _SMOOTHER) -> list[float]:

@@ -27,8 +27,9 @@ _STOPPED, _UNCONVERGED = 0.025, 0.3
 # error of W_c by the time step over a hard floor; rms of asperities below the grid over that of the surfaces, by which
 # it falls to 1 / e: they soften how contacts begin and end
 _HARD, _SOFTENED = 0.2, 0.05
-# relative error of W_c by a time step in which the bodies slide past each other by a correlation length
-_SLIDING = 0.3
+# relative error of W_c by a time step in which the bodies slide past each other by a correlation length; it falls with
+# the square of that way
+_SLIDING = 0.15
 _ON_SOLIDS, _AT_EDGE = 0.5, 0.25  # of rolling resistance: part where solids carry all; of its share beyond the grid
 _RELATIVE: dict[str, Callable[[float, float, float], float]] = {
     "h_c": film_error,
@@ -87,7 +88,7 @@ def _step_error(case: Case, load_ratio: float) -> float:
         return 0.0
     soft = case.microroughness.rms if case.microroughness is not None else 0.0
     slid = abs(case.op.sliding_speed) * instant_time(case) / case.sides[case.scene.rougher].surface.length
-    hard, sliding = _HARD * math.exp(-soft / (_SOFTENED * rms)), _SLIDING * min(slid, 1.0) * load_ratio
+    hard, sliding = _HARD * math.exp(-soft / (_SOFTENED * rms)), _SLIDING * min(slid, 1.0) ** 2 * load_ratio
     return min(math.hypot(hard, sliding), load_ratio, 1.0)
 
 

@@ -145,6 +145,7 @@ class FilmState:
     warmth: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of the film above the inlet [K], as well
     mass_before: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of a step of second order, where it began
     dt: float = 0.0  # [s] since then
+    gap: Array = field(default_factory=lambda: np.zeros((1, 1)))  # through which the oil flowed, [1, 1] if unknown
 
     def __post_init__(self) -> None:
         for array in (self.solid, *self._fields):
@@ -153,14 +154,14 @@ class FilmState:
     @property
     def _fields(self) -> tuple[Array, ...]:
         oil = self.ease, self.thinned, self.warmth
-        return self.pressure, self.fluid, self.mass, *oil, self.mass_before
+        return self.pressure, self.fluid, self.mass, *oil, self.mass_before, self.gap
 
     def mirrored(self) -> "FilmState":
         """Return the state mirrored along x."""
         solid = np.ascontiguousarray(self.solid[:, ::-1])
         first = (np.ascontiguousarray(f[:, ::-1]) for f in self._fields)
-        pressure, fluid, mass, ease, thinned, warmth, before = first
-        return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, thinned, warmth, before, self.dt)
+        pressure, fluid, mass, ease, thinned, warmth, before, gap = first
+        return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, thinned, warmth, before, self.dt, gap)
 
 
 @dataclass(frozen=True)

@@ -221,6 +221,7 @@ class Scaled:
             fitted=self.settings.fitted,
             slow_mass=None if self.slow is None else images(self.slow.now / self.h_unit),
             empty=None if self.slow is None or self.start is None else images(self._empty(self.start)),
+            gap_before=self._flowed_before(),
             stress=self.stress,
             depth=self.fade,
         )
@@ -230,6 +231,13 @@ class Scaled:
         empty = start.fluid <= 0.0
         empty[:, : max(self.first, 1)] = self.now.supply is not None
         return empty
+
+    def _flowed_before(self) -> Array | None:
+        """Return the gap at the start of a step in which the nodes move with the oil, None without one."""
+        if self.slow is None or self.start is None or self.start.gap.shape != self.grid.shape:
+            return None
+        gap = self.slow.carried(self.start.gap, self.step.rolled if self.step else 0) / self.h_unit
+        return self._with_images(np.maximum(gap, self.floor))
 
     def _with_images(self, field: NDArray[Any]) -> NDArray[Any]:
         """Return a field [ny, nx]; on a periodic grid with images of the last row before and the first after."""

@@ -85,7 +85,7 @@ def dry(scaled: Scaled, route: str, share: float = 1.0) -> FilmSolution:
 
 def solution(scaled: Scaled, found: Solution, route: str, algorithm: str) -> FilmSolution:
     """Return a solution in SI."""
-    it = found.iterate
+    it, gap = found.iterate, np.maximum(found.gap, scaled.floor) * scaled.h_unit
     state = FilmState(
         it.pressure * scaled.p_unit,
         it.fluid * scaled.p_unit,
@@ -94,6 +94,7 @@ def solution(scaled: Scaled, found: Solution, route: str, algorithm: str) -> Fil
         it.rigid * scaled.h_unit,
         np.ones((1, 1)) if scaled.now.ease is None else scaled.now.ease,
         np.zeros((1, 1)) if scaled.now.thinned is None else scaled.now.thinned,
+        gap=gap,
     )
     if scaled.start and scaled.step and scaled.step.order == 2:
         state = replace(state, mass_before=scaled.start.mass, dt=scaled.step.dt)
@@ -101,7 +102,6 @@ def solution(scaled: Scaled, found: Solution, route: str, algorithm: str) -> Fil
     overlap = np.where(capped, np.maximum(scaled.floor - found.gap, 0.0), 0.0) * scaled.h_unit
     if scaled.give is not None:
         overlap += scaled.give.yielded(it.pressure) * scaled.h_unit
-    gap = np.maximum(found.gap, scaled.floor) * scaled.h_unit
     inlet_nodes = _inlet_nodes(scaled, gap)
     return FilmSolution(
         state=state,

@@ -123,7 +123,12 @@ class Control:
         default=0,
     )
     nodes_per_instant: float = parameter(
-        "", "way of the oil from instant to instant of a mixed block, in nodes", above=0.0, most=1.0, default=1.0
+        "",
+        "way of the oil from instant to instant of a mixed block, in nodes; less where bodies slide past each other by "
+        "more than half a correlation length in it",
+        above=0.0,
+        most=1.0,
+        default=1.0,
     )
     longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=120.0)
     inputs: str = parameter(

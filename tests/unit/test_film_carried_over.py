@@ -9,11 +9,12 @@ from comparison import approx
 from wavy_contact import problem
 
 from contact_core import Scene, advance, initial_state, march
-from contact_core.deterministic.instant import Transient, instant_of, solve_instant
+from contact_core.deterministic.instant import Transient, instant_of, instant_time, solve_instant
 from contact_core.deterministic.transient import begin, next_instant
 from contact_core.errors import OperatingPointError
 from contact_core.film.routes import solve_film
 from contact_core.film.slow_film import SlowFilm, slow_film
+from contact_core.kernels.mixed.flow import gap_of_step
 from contact_core.kernels.mixed.stopping_rule import allowed_imbalance
 from contact_core.scene import Case
 
@@ -58,6 +59,36 @@ def test_answers_of_a_block_do_not_hang_on_the_step():
     assert one.contact_load_ratio == approx(quarter.contact_load_ratio, rel=0.025)
     assert one.friction_coefficient == approx(quarter.friction_coefficient, rel=0.02)
     assert one.h_c == approx(quarter.h_c, rel=0.03)
+
+
+def test_answers_of_bodies_that_slide_do_not_hang_on_the_step():
+    """Asperities that pass each other close and open the gap within a step, by orders of its conductance."""
+    speeds = {"operation.speed_1": "0.3375 m/s", "operation.speed_2": "0.1625 m/s"}
+    found = []
+    for nodes in ("1", "0.25"):
+        changes = {"film.points": "65", "control.nodes_per_instant": nodes} | speeds
+        scene = Scene.from_toml("azam_case_a", changes)
+        found.append(advance(scene, scene.operation.point, initial_state(scene), 0.0)[1])
+    one, quarter = found
+    assert one.contact_load_ratio == approx(quarter.contact_load_ratio, rel=0.025)
+    assert one.friction_coefficient == approx(quarter.friction_coefficient, rel=0.02)
+
+
+def test_bodies_slide_by_half_a_correlation_length_in_an_instant_at_most():
+    for speeds in ((0.0, 0.5), (0.5, 0.0), (0.15, 0.35), (-0.1, 0.5)):
+        for points in ("65", "129"):
+            given = {f"operation.speed_{body}": f"{speed} m/s" for body, speed in enumerate(speeds, 1)}
+            case = bound(given | {"film.points": points})
+            slid = abs(case.op.sliding_speed) * instant_time(case)
+            assert slid <= 0.5 * max(case.scene.surface_2.length, case.scene.film.spacing) * (1.0 + 1e-12)
+
+
+def test_the_gap_of_a_step_lets_through_what_its_way_lets_through_on_average():
+    """The mean of 1 / h^3 over the gaps between both."""
+    before, now, found = np.array([[1.0, 2.0, 5.0]]), np.array([[4.0, 2.0, 0.5]]), np.zeros((1, 3))
+    gap_of_step(before, now, found)
+    between = np.linspace(before, now, 100_001)
+    assert found**-3 == approx(np.trapezoid(between**-3, axis=0, dx=1e-5), rel=1e-6)
 
 
 def test_oil_is_neither_made_nor_lost_by_an_iteration_that_stops_early():

@@ -22,6 +22,11 @@ for m - M needs no pressure: with m_c, which stands still, roughness that rolls 
 step moves it. Oil without pressure is carried along as it is: of M, a face behind it passes the mean over the way of
 the nodes, M (x - C / 2) at C nodes per step. Else half a cell of a closing gap would be lost where oil fills up.
 
+While asperities pass each other, the gap of a node that moves with the oil changes from h_0 to h_1 in a step. Under a
+constant pressure time goes by as dh / h^3: the mean conductance of the step is that of a gap h with
+1 / h^3 = mean of 1 / h^3 between both = (h_0 + h_1) / (2 h_0^2 h_1^2). With that of its end, oil would be trapped under
+asperities that close, and lost where they open, the more the longer the step.
+
 The gap within a cell along the flow is the cubic through four nodes; across the flow it is straight, 1 / I_3 =
 2 h_1^2 h_2^2 / (h_1 + h_2). Source of fitted fluxes: Scharfetter & Gummel, IEEE Trans. Electron Devices 16 (1969) 64,
 doi:10.1109/T-ED.1969.16566, for drift and diffusion; of m_u: Leonard, Comput. Methods Appl. Mech. Eng. 19 (1979) 59,
@@ -160,6 +165,15 @@ def face_means(gap, mass, conductance, width, across):  # type: ignore[no-untype
 
 
 @jit
+def gap_of_step(before, now, out):  # type: ignore[no-untyped-def]
+    """Compute the gap whose conductance is the mean of a step from one gap to another, all [ny, nx]."""
+    for j in range(now.shape[0]):
+        for i in range(now.shape[1]):
+            h_0, h_1 = before[j, i], now[j, i]
+            out[j, i] = (2.0 * h_0 * h_0 * h_1 * h_1 / (h_0 + h_1)) ** (1.0 / 3.0)
+
+
+@jit
 def slow_upstream(slow, out):  # type: ignore[no-untyped-def]
     """Compute m_u(M) of the faces along the flow, [ny, nx]."""
     ny, nx = slow.shape
@@ -248,10 +262,11 @@ class Flow:
         self.slow_mass: Array | None = None
         self.slow: Array | None = None
         self.empty = np.zeros(shape, np.bool_)
-        scratch: list[Array] = [np.zeros(shape) for _ in range(11)]
+        self.gap_before: Array | None = None
+        scratch: list[Array] = [np.zeros(shape) for _ in range(12)]
         self.gap, self.rho, self.fluid, self.potential = scratch[:4]
         self.conductance, self.width, self.across = scratch[4:7]
-        self.ex, self.ey, self.share, self.carried = scratch[7:]
+        self.ex, self.ey, self.share, self.carried, self.gap_of_step = scratch[7:]
 
     @staticmethod
     def of(problem: Problem) -> "Flow":
@@ -260,6 +275,7 @@ class Flow:
         flow = Flow(problem.cap.shape, problem.floor, problem.step, per_stiff, problem.fitted)
         if problem.slow_mass is not None:
             flow.slow_mass, flow.slow = problem.slow_mass, np.zeros(problem.cap.shape)
+            flow.gap_before = problem.gap_before
             slow_upstream(flow.slow_mass, flow.slow)
             if problem.empty is not None:
                 flow.empty, part = problem.empty, min(problem.nodes_per_step, 1.0)
@@ -284,8 +300,11 @@ class Flow:
     def measure(self) -> None:
         """Compute what the faces owe to the gap."""
         if self.fitted:
-            mass = self.gap if self.slow_mass is None else self.slow_mass
-            face_means(self.gap, mass, self.conductance, self.width, self.across)
+            gap, mass = self.gap, self.gap if self.slow_mass is None else self.slow_mass
+            if self.gap_before is not None:
+                gap_of_step(self.gap_before, gap, self.gap_of_step)
+                gap = self.gap_of_step
+            face_means(gap, mass, self.conductance, self.width, self.across)
 
     def drive(self, f: Array, full: Array, mobility: Array, thinned: Array) -> None:
         """Compute the flows through all faces from fluid pressure, full masses and properties of the oil."""
