@@ -34,6 +34,7 @@ class Transient:
     thorough: bool = False  # True: try all algorithms; False: the residual carries over to the next instant
     shifted: float = 0.0  # nodes by which the grid itself has moved along +x
     rolled: int = 0  # and those by which the oil has moved along on the grid
+    passing: float = 1.0  # part of the gap's change since then in which asperities pass each other; the rest is at once
 
 
 @dataclass(frozen=True)
@@ -128,7 +129,7 @@ def solve_instant(
         step = None
         if transient and before:
             how = transient.moved, transient.order, transient.thorough
-            step = Step(transient.dt, *how, transient.shifted, transient.rolled)
+            step = Step(transient.dt, *how, transient.shifted, transient.rolled, transient.passing)
         most = transient.iterations if transient else None
         film = solve_flow(
             case,

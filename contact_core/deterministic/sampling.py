@@ -32,6 +32,7 @@ _DRY_PASS = 8  # dry instants in one pass of a surface point through the contact
 _CLEAR = 3.0  # film by formula over rms roughness above which a dry contact is no start
 # correlation of instants a short way apart, and way of the oil over a of Hertz's contact in which it falls to zero
 _ALIKE_AT_ONCE, _ALIKE = 0.9, 0.75
+_BLOCKS = 20  # whose sampled instants make up a pass: neighbours hold hardly more than one value together
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
 _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the sampled film
 _CALMING = 24  # nodes of the oil's way after a jump of a rougher one
@@ -90,17 +91,27 @@ def sample_mixed(
     length = case.sides[scene.rougher].surface.length / scene.film.spacing
     stride = max(1, round(length / nodes_per_instant(case)))  # as many jumps on the way on every grid
     sampled = _instants(case, _sampled_nodes(scene))
+    passing = _passing(case, stride * dt) if any(jumps) else 1.0
     for k in range(-unsampled, sampled):
         tell("instant", unsampled + k + 1, unsampled + sampled)
         jump_now = k % stride == 0
         moves = [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)]
-        if jump_now and any(jumps) and near_rolling(case) and state.film:
-            state = replace(state, film=replace(state.film, gap=np.zeros((1, 1))))  # the gap before is of other bodies
         settled = 2 * k >= -unsampled  # enough to tell which points are exposed, and how warm they are
-        state, fields = next_instant(case, state, moves, Transient(dt, 0, _ITERATIONS, heated=settled))
+        state, fields = next_instant(case, state, moves, Transient(dt, 0, _ITERATIONS, heated=settled, passing=passing))
         if settled:
             sums.add(case, state, fields, passes, sampled=k >= 0)
     return state
+
+
+def _passing(case: Case, time: float) -> float:
+    """Return the part of the gap's mean square change that is sliding, where the smoother body jumps after a time [s].
+
+    Heights of a correlation length l, d apart, differ by 2 rms^2 (d / l)^2 in the mean square, those of a body that has
+    jumped by 2 rms^2.
+    """
+    rougher, smoother = (case.sides[i].surface for i in (case.scene.rougher, 1 - case.scene.rougher))
+    slid = rougher.rms * abs(case.op.sliding_speed) * time / rougher.length
+    return slid**2 / (slid**2 + smoother.rms**2) if slid > 0.0 else 0.0
 
 
 def rest_of_a_pass(case: Case, state: ContactState, sums: Accumulator, same: bool) -> ContactState:
@@ -144,8 +155,8 @@ def settling_instants(case: Case) -> int:
 
 
 def _sampled_nodes(scene: Scene) -> int:
-    """Return the way of the oil in a mixed block, in nodes: by default a sixteenth of a pass, whatever the grid."""
-    return scene.control.mixed_instants or math.ceil((scene.film.points - 1) / 16)
+    """Return the way of the oil in a mixed block, in nodes: by default a twentieth of a pass, whatever the grid."""
+    return scene.control.mixed_instants or math.ceil((scene.film.points - 1) / _BLOCKS)
 
 
 def likeness(case: Case, count: int, driver: str) -> float:

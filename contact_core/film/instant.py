@@ -112,6 +112,7 @@ class Step:
     thorough: bool = False  # True: every algorithm is tried; False: the residual carries over to the next instant
     shifted: float = 0.0  # nodes by which the grid itself has moved along +x since then
     rolled: int = 0  # and those by which the oil moved along on the grid; both 0: the grid stands still under the oil
+    passing: float = 1.0  # part of the gap's change in which oil flows through the gaps between; the rest is at once
 
     def mirrored(self) -> "Step":
         """Return the step mirrored along x."""

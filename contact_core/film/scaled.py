@@ -222,6 +222,7 @@ class Scaled:
             slow_mass=None if self.slow is None else images(self.slow.now / self.h_unit),
             empty=None if self.slow is None or self.start is None else images(self._empty(self.start)),
             gap_before=self._flowed_before(),
+            passing=self.step.passing if self.step else 1.0,
             stress=self.stress,
             depth=self.fade,
         )

@@ -117,7 +117,7 @@ class Control:
     dry_instants: int = parameter("", "instants of a block driven dry", least=1, most=1000, default=3)
     mixed_instants: int = parameter(
         "",
-        "way of the oil in a block driven by mixed lubrication, in nodes; 0: a sixteenth of a pass",
+        "way of the oil in a block driven by mixed lubrication, in nodes; 0: a twentieth of a pass",
         least=0,
         most=1000,
         default=0,

@@ -86,7 +86,7 @@ def test_bodies_slide_by_half_a_correlation_length_in_an_instant_at_most():
 def test_the_gap_of_a_step_lets_through_what_its_way_lets_through_on_average():
     """The mean of 1 / h^3 over the gaps between both."""
     before, now, found = np.array([[1.0, 2.0, 5.0]]), np.array([[4.0, 2.0, 0.5]]), np.zeros((1, 3))
-    gap_of_step(before, now, found)
+    gap_of_step(before, now, 1.0, found)
     between = np.linspace(before, now, 100_001)
     assert found**-3 == approx(np.trapezoid(between**-3, axis=0, dx=1e-5), rel=1e-6)
 

@@ -165,11 +165,12 @@ def face_means(gap, mass, conductance, width, across):  # type: ignore[no-untype
 
 
 @jit
-def gap_of_step(before, now, out):  # type: ignore[no-untyped-def]
-    """Compute the gap whose conductance is the mean of a step from one gap to another, all [ny, nx]."""
+def gap_of_step(before, now, passing, out):  # type: ignore[no-untyped-def]
+    """Compute the gap whose conductance is the mean of a step in which a part of the gap's change passes by."""
     for j in range(now.shape[0]):
         for i in range(now.shape[1]):
-            h_0, h_1 = before[j, i], now[j, i]
+            h_1 = now[j, i]
+            h_0 = h_1 + passing * (before[j, i] - h_1)
             out[j, i] = (2.0 * h_0 * h_0 * h_1 * h_1 / (h_0 + h_1)) ** (1.0 / 3.0)
 
 
@@ -263,6 +264,7 @@ class Flow:
         self.slow: Array | None = None
         self.empty = np.zeros(shape, np.bool_)
         self.gap_before: Array | None = None
+        self.passing = 1.0
         scratch: list[Array] = [np.zeros(shape) for _ in range(12)]
         self.gap, self.rho, self.fluid, self.potential = scratch[:4]
         self.conductance, self.width, self.across = scratch[4:7]
@@ -275,7 +277,7 @@ class Flow:
         flow = Flow(problem.cap.shape, problem.floor, problem.step, per_stiff, problem.fitted)
         if problem.slow_mass is not None:
             flow.slow_mass, flow.slow = problem.slow_mass, np.zeros(problem.cap.shape)
-            flow.gap_before = problem.gap_before
+            flow.gap_before, flow.passing = problem.gap_before, problem.passing
             slow_upstream(flow.slow_mass, flow.slow)
             if problem.empty is not None:
                 flow.empty, part = problem.empty, min(problem.nodes_per_step, 1.0)
@@ -302,7 +304,7 @@ class Flow:
         if self.fitted:
             gap, mass = self.gap, self.gap if self.slow_mass is None else self.slow_mass
             if self.gap_before is not None:
-                gap_of_step(self.gap_before, gap, self.gap_of_step)
+                gap_of_step(self.gap_before, gap, self.passing, self.gap_of_step)
                 gap = self.gap_of_step
             face_means(gap, mass, self.conductance, self.width, self.across)
 

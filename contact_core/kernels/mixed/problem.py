@@ -70,6 +70,7 @@ class Problem:
     depth: float = 0.0  # gap over which that falls by the factor e; 0: no such asperities
     slow_mass: Array | None = None  # part M of the mass that stands still; the rest, and the nodes, move with the oil
     gap_before: Array | None = None  # of the nodes at the previous instant, at least the floor; None: as it is now
+    passing: float = 1.0  # part of its change since then that takes all of the step; the rest is at once
     empty: Mask | None = None  # nodes whose oil had no pressure at the previous instant
     fitted: bool = False  # flow through faces exact for a constant flow in each cell; else second order upstream
 
