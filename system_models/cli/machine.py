@@ -57,7 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
         force=arguments.force,
         listener=CONSOLE,
     )
-    return done.exit_code
+    return done.exit_code or int(arguments.strict and bool(done.shortfalls))
 
 
 def _changes(arguments: argparse.Namespace) -> dict[str, str]:

@@ -45,6 +45,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="leave out the checks of a machine's result: a simulation with double steps, and states solved again",
     )
     parser.add_argument(
+        "--strict",
+        action="store_true",
+        help="exit code 1, and not 0 with a warning, if a machine's stated error does not cover a state solved again",
+    )
+    parser.add_argument(
         "--flavour",
         choices=FLAVOURS,
         help="FMUs of a machine: 'native' ones are C, built when it starts, and fast, of contacts at a level without "

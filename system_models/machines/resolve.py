@@ -63,7 +63,17 @@ class Resolved:
     @property
     def valid(self) -> bool:
         """True if all errors cover the deviations, as far as there is a solution."""
-        return self.solved and all(self.deviation(name) <= self.allowed(name) for name in COMPARED)
+        return self.solved and not self.shortfalls
+
+    @property
+    def shortfalls(self) -> list[str]:
+        """Return a sentence for each output whose stated error does not cover the deviation of the solution."""
+        return [
+            f"{name} of {self.contact} at {self.time:.4g} s deviates by {self.deviation(name):.1%} from its solution, "
+            f"and {COMPARED[name]} states {self.allowed(name):.1%}."
+            for name in COMPARED
+            if not self.deviation(name) <= self.allowed(name)
+        ]
 
     @property
     def verdict(self) -> str:

@@ -21,7 +21,7 @@ from ..store.checkpoint import Checkpoint
 from .listener import QUIET, Listener
 from .replacing import ask_before
 
-EXIT_CODE = "exit_code"  # of the run, as an attribute of its result
+EXIT_CODE, SHORTFALLS = "exit_code", "shortfalls"  # of the run, as attributes of its result
 
 
 @dataclass(frozen=True)
@@ -30,10 +30,11 @@ class Finished:
 
     dataset: xr.Dataset
     folder: Path
-    reliable: bool  # every row is valid, and no check has failed
+    reliable: bool  # every row is valid
     written: tuple[Path, ...] = ()
     errors: Mapping[str, Error] = field(default_factory=dict)  # of a contact's outputs at the end, by their causes
     checks: Mapping[str, xr.Dataset] = field(default_factory=dict)  # of a machine, by the names of their files
+    shortfalls: tuple[str, ...] = ()  # where a machine's stated error does not cover a state solved again, in words
 
     @property
     def exit_code(self) -> int:
@@ -109,7 +110,10 @@ def note_replaced(file: Path, listener: Listener) -> None:
 def of_before(origin: Mapping[str, str], folder: Path, listener: Listener) -> Finished | None:
     """Return this very simulation if its result is there already."""
     dataset = finished(results.find(origin, folder), folder, listener)
-    return None if dataset is None else Finished(dataset, folder, reliable=not dataset.attrs.get(EXIT_CODE, 0))
+    if dataset is None:
+        return None
+    shortfalls = tuple(dataset.attrs.get(SHORTFALLS, "").splitlines())
+    return Finished(dataset, folder, reliable=not dataset.attrs.get(EXIT_CODE, 0), shortfalls=shortfalls)
 
 
 def finished(dataset: xr.Dataset | None, folder: Path, listener: Listener) -> xr.Dataset | None:

@@ -28,7 +28,7 @@ from ..run.trust import wrapped
 from ..store import results
 from ..store.checkpoint import Checkpoint
 from ..store.folders import made
-from .job import EXIT_CODE, Finished, carry_out
+from .job import EXIT_CODE, SHORTFALLS, Finished, carry_out
 from .listener import QUIET, Listener
 
 _DOUBLE_STEPS, _STATES = "double_steps", "states_solved_again"  # folders of unfinished checks
@@ -142,18 +142,18 @@ class _Job:
             )
         better = corrected.corrected(assembly, dataset, states)
         listener.say(*resolve.lines(states), *corrected.lines(assembly, dataset, better, states), _took(begin))
-        wrong = [state for state in states if state.solved and not state.valid]
-        if wrong:
-            count = f"{len(wrong)} of {len(states)} states"
-            listener.note(f"The errors of the regression level do not cover its deviation in {count}: see 'NO'.")
-        reliable = done.reliable and not wrong
+        shortfalls = tuple(text for state in states if state.solved for text in state.shortfalls)
+        for text in shortfalls:
+            listener.warn(text)
         checks = {"resolved": resolve.to_dataset(states), "corrected": results.with_half_widths(better)}
         written = [Path(results.write(each, self.folder, name)[0]) for name, each in checks.items()]
         listener.say(f"Written: {', '.join(map(str, written))}")
-        dataset = resolve.marked(dataset, states).assign_attrs({EXIT_CODE: int(not reliable)})
+        dataset = resolve.marked(dataset, states)
+        dataset = dataset.assign_attrs({EXIT_CODE: int(not done.reliable), SHORTFALLS: "\n".join(shortfalls)})
         results.write(dataset, self.folder)
         self._forget_checks()
-        return replace(done, dataset=dataset, reliable=reliable, written=(*done.written, *written), checks=checks)
+        written = [*done.written, *written]
+        return replace(done, dataset=dataset, shortfalls=shortfalls, written=tuple(written), checks=checks)
 
     def _with_double_steps(self, dataset: xr.Dataset) -> xr.Dataset:
         """Return the simulation with every second of its communication points."""
