@@ -234,6 +234,9 @@ class Heat(Law, Protocol):
         0 where the law has no spots.
         """
 
+    def spot_share(self, radius: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the share of the heat of spots of `radius` [m] that goes into body 1; a half without spots."""
+
     def conductances(self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False) -> tuple[Array, Array]:
         """Return the heat flux per mean rise [W/(m2 K)] into each body under an even source on a circle [m].
 

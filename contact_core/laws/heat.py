@@ -139,6 +139,10 @@ class NoHeat:
         """Return the flash temperature rise [K] of spots: 0."""
         return 0.0
 
+    def spot_share(self, radius: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the share of the heat of spots that goes into body 1: a half."""
+        return 0.5
+
     def conductances(self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False) -> tuple[Array, Array]:
         """Return the heat flux per rise [W/(m2 K)]: infinite, no surface is warmer than its body."""
         return np.full_like(radius, np.inf), np.full_like(radius, np.inf)
@@ -242,6 +246,11 @@ class FlashTemperature(_Conductors):
         into_1, into_2 = self._conduction(radius, sliding_speed)
         return abs(shear * sliding_speed) / (into_1 + into_2)
 
+    def spot_share(self, radius: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the share of the heat of spots of `radius` [m] that goes into body 1."""
+        into_1, into_2 = self._conduction(radius, sliding_speed)
+        return into_1 / (into_1 + into_2)
+
     def temperatures(self, rubbing: Rubbing) -> Temperatures:
         """Return the temperatures and the heat flows."""
         total, bodies, solid = rubbing.total, rubbing.bodies, rubbing.solid
@@ -313,6 +322,10 @@ class TemperatureField(_Conductors):
     def spot_rise(self, radius: Numbers, shear: Numbers, sliding_speed: Numbers) -> Numbers:
         """Return the flash temperature rise [K] of spots: 0, the law has nodes and no spots."""
         return 0.0
+
+    def spot_share(self, radius: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the share of the heat of spots that goes into body 1: a half, the law has no spots."""
+        return 0.5
 
     def temperatures(self, rubbing: Rubbing) -> Temperatures:
         """Return the temperatures and the heat flows."""

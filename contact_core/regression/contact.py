@@ -93,13 +93,14 @@ def evaluate(case: Case, tribofilms: Tribofilms, derivatives: bool = True) -> Me
             tribofilms, sigma, cover, UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 9, 1.0, 0.0, max(op.bodies)
         )
     sliding, surfaces = op.sliding_speed, surfaces_of(case, tribofilms)
-    further = STEP * math.copysign(max(abs(sliding), scene.boundary_friction.slip_speed), sliding)
+    further = math.copysign(_further(case), sliding)
     smooth = smooth_film(case, further)
     points = _points(case, surfaces, smooth.film, further)[: None if derivatives else _TO_KNOW]
     fluid, heat = _oil_friction(case, points, further)
     now, slide, pull = points[0], abs(points[0].rubbing), abs(points[0].solid + fluid[0])
     if heat is None:
-        rise, into_1 = _flash_rise(case, abs(now.shear), slide), 0.5 * pull * slide
+        rise, share = _spot(case, abs(now.shear), slide)
+        into_1 = 0.5 * pull * slide + abs(now.solid) * slide * (share - 0.5)  # the heat of the oil goes in halves
         hottest = max(op.bodies) + rise
     else:
         rise, into_1 = heat.surface(pull * slide)
@@ -134,6 +135,22 @@ def evaluate(case: Case, tribofilms: Tribofilms, derivatives: bool = True) -> Me
         slope,
         hottest,
     )
+
+
+def _further(case: Case) -> float:
+    """Return by how much [m/s] sliding is more at the second point: enough that rubbing is, with spin as well."""
+    sliding = abs(case.op.sliding_speed)
+    further = STEP * max(sliding, case.scene.boundary_friction.slip_speed)
+    if case.op.spin == 0.0:
+        return further
+    turning = _turning(case, case.growth[1])
+    rubbing = (1.0 + STEP) * math.hypot(sliding, turning)
+    return max(further, math.sqrt(rubbing * rubbing - turning * turning) - sliding)
+
+
+def _turning(case: Case, wide: float) -> float:
+    """Return the speed [m/s] at which spin rubs, mean over the contact at 1 N, grown by a factor along y."""
+    return case.unit_hertz.lever_share * abs(case.op.spin) * case.unit_hertz.b * wide
 
 
 def _slope(points: list[_Point], fluid: list[float]) -> float:
@@ -179,10 +196,9 @@ def _point(
     hertz, spin, boundary = case.unit_hertz, case.op.spin, case.scene.boundary_friction
     rubbing, along, turned = slide, 1.0, 1.0
     if spin != 0.0:
-        edge = spin * hertz.b * wide
-        rubbing = math.hypot(slide, hertz.lever_share * edge)
+        rubbing = math.hypot(slide, _turning(case, wide))
         along = slide / max(rubbing, SLOWEST)
-        turned = slide / max(math.hypot(slide, hertz.turn_share * edge), SLOWEST)
+        turned = slide / max(math.hypot(slide, hertz.turn_share * spin * hertz.b * wide), SLOWEST)
     shares = shared(case, parted, sliding_ratio(rubbing, speed))
     largest, area = hertz.pressure_max * root, hertz.area * root * wide
     carried = hertz.mean_share * shares.load * largest  # mean over the Hertz area
@@ -236,11 +252,15 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
     return friction(warm).tolist(), heat
 
 
-def _flash_rise(case: Case, shear: float, sliding: float) -> float:
-    """Return the flash temperature rise [K] of a spot as wide as the rougher body's correlation length."""
+def _spot(case: Case, shear: float, sliding: float) -> tuple[float, float]:
+    """Return the flash temperature rise [K] of a spot of solid contact, and the share of its heat into body 1.
+
+    The spot is as wide as the rougher body's correlation length.
+    """
+    radius, heat = 0.5 * case.sides[case.scene.rougher].surface.length, case.scene.heat
     if shear == 0.0:
-        return 0.0
-    return float(case.scene.heat.spot_rise(0.5 * case.sides[case.scene.rougher].surface.length, shear, sliding))
+        return 0.0, 0.5
+    return float(heat.spot_rise(radius, shear, sliding)), float(heat.spot_share(radius, sliding))
 
 
 def _faster(case: Case) -> float:

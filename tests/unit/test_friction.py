@@ -5,7 +5,7 @@ import pytest
 from cheap_scene import cheap
 from comparison import approx
 
-from contact_core import Scene, advance, solve
+from contact_core import Scene, advance, initial_state, solve
 from contact_core.deterministic.friction import Film, derivatives, friction, shear, sliding
 from contact_core.film.instant import Grid
 from contact_core.scene import Case
@@ -68,6 +68,21 @@ def test_much_spin_turns_friction_away_from_the_sliding():
     forces = [abs(force(at(speed_1=0.26, speed_2=0.24, spin=spin), dry())) for spin in (0.0, 1e2, 1e3, 1e4)]
     assert forces == sorted(forces, reverse=True)
     assert forces[-1] < 0.05 * forces[0]
+
+
+@pytest.mark.parametrize("slide", [1e-7, 1e-5, 1e-3])
+def test_friction_under_spin_is_in_proportion_to_a_little_sliding(slide):
+    """At the regression level: its slope was a difference that rounding ruled, and its size changed with the slide."""
+    scene = Scene.from_toml("ball_209_inner").at_level("regression")
+    state, op = initial_state(scene), scene.operation.point
+
+    def found(sliding):
+        u = op.entrainment_speed
+        return advance(scene, replace(op, speed_1=u + sliding / 2, speed_2=u - sliding / 2, spin=1000.0), state, 0.0)[1]
+
+    out, most = found(slide), found(2e-3)
+    assert out.friction_force / slide == approx(most.friction_force / 2e-3, rel=1e-4)
+    assert out.dfriction_dspeed_1 == approx(out.friction_force / slide, rel=1e-3)
 
 
 def test_spin_has_no_direction_of_its_own():
