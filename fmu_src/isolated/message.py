@@ -30,7 +30,7 @@ class Operation(IntEnum):
     ENTER = 3
     EXIT = 4
     STEP = 5
-    LOOK = 6
+    LOOK = 6  # of a get, where outputs are older than what was set: sends that, brings all values
     TERMINATE = 7
     RESET = 8
     SAVE = 9
