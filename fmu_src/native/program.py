@@ -200,7 +200,7 @@ def written(scene: Scene) -> dict[str, str]:
     Contacts that differ in track lengths only, such as the stations of a gear mesh, have all files but tracks.c alike.
     Raises SceneError for a scene that the native FMU cannot have.
     """
-    _check(scene)
+    check(scene)
     geometry, key = scene.geometry, _key(scene)
     if key not in _written:
         _written[key] = _equations_kept(scene)
@@ -302,7 +302,7 @@ def _equations(scene: Scene) -> dict[str, str]:
     }
 
 
-def _check(scene: Scene) -> None:
+def check(scene: Scene) -> None:
     """Raise SceneError for a scene that no native FMU can have."""
     if scene.film.fidelity not in _LEVELS:
         raise SceneError(

@@ -14,6 +14,7 @@ from contact_core.errors import SceneError
 from contact_core.scene import Scene
 
 from ..flavours import VERSIONS, Flavour, Version
+from ..native import program
 from ..runtime import resources
 from ..variables import Variable, variables
 from . import compiled, evidence, fmi2, fmi3, icon, licences, terminals
@@ -62,7 +63,7 @@ def build(
     OSError
         The file cannot be written, or the binaries, a compiler or a licence are missing.
     """
-    check(flavour, fmi)
+    check(flavour, fmi, scene)
     own = {
         **_picture(scene, fmi),
         "documentation/index.html": documentation(scene, flavour, reference, fmi),
@@ -72,8 +73,10 @@ def build(
     return pack(described(scene, flavour, fmi), variables_of(scene, flavour), own, out, flavour, python, fmi)
 
 
-def check(flavour: Flavour, fmi: Version) -> None:
-    """Raise SceneError if the flavour is not built in this version of FMI."""
+def check(flavour: Flavour, fmi: Version, scene: Scene | None = None) -> None:
+    """Raise SceneError if the flavour is not built in this version of FMI or, where one is given, for this scene."""
+    if scene is not None and flavour == "native":
+        program.check(scene)
     if fmi in VERSIONS[flavour]:
         return
     own = " or ".join(str(version) for version in VERSIONS[flavour])
