@@ -1,6 +1,6 @@
 """Layout of the messages between the FMU's library and a worker: little-endian, items at multiples of 8 bytes.
 
-native/message.h describes their contents; change the two together.
+library/message.h describes their contents; change the two together.
 """
 
 import struct

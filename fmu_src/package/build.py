@@ -21,7 +21,7 @@ from . import compiled, evidence, fmi2, fmi3, icon, licences, terminals
 from .describe import Model, described, variables_of
 from .document.page import documentation
 
-_NATIVE = files("fmu_src.isolated") / "native"
+_LIBRARY = files("fmu_src.isolated") / "library"
 _LIBRARIES = (".so", ".dll", ".dylib")
 _TUPLES = {"linux64": "x86_64-linux", "win64": "x86_64-windows"}  # FMI 3's names of FMI 2's platforms
 
@@ -134,7 +134,7 @@ def _description(
 
 def _of_process(guid: str, python: str | None) -> dict[str, bytes]:
     """Return name and content of the resources that start an isolated FMU; `python` is its interpreter."""
-    found = {"start.py": (_NATIVE / "start.py").read_bytes(), "guid.txt": guid.encode()}
+    found = {"start.py": (_LIBRARY / "start.py").read_bytes(), "guid.txt": guid.encode()}
     return found | ({"python.txt": python.encode()} if python else {})
 
 
@@ -152,7 +152,7 @@ def _write(parts: Mapping[str, bytes], out: Path) -> Path:
 
 def binaries(flavour: Flavour, model: str, fmi: Version = 2) -> dict[str, bytes]:
     """Return the library of a flavour in Python for every platform that has one, under the name of the model."""
-    root = _NATIVE if flavour == "isolated" else files("pythonfmu") / "resources"
+    root = _LIBRARY if flavour == "isolated" else files("pythonfmu") / "resources"
     found = {
         f"binaries/{_folder(platform.name, fmi)}/{model}{Path(library.name).suffix}": library.read_bytes()
         for platform in (root / "binaries").iterdir()

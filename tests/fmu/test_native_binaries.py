@@ -13,7 +13,7 @@ from fmu_host import unpacked
 
 from benchmarks.hosts.native_host import OK, NativeHost, compiled, plain_environment
 from contact_core import Scene
-from fmu_src.isolated.native import build, image
+from fmu_src.isolated.library import build, image
 from fmu_src.package.build import binaries
 from fmu_src.package.build import build as build_fmu
 
@@ -62,7 +62,7 @@ def test_an_isolated_fmu_takes_all_of_them() -> None:
 @pytest.mark.parametrize("platform", COMMITTED)
 def test_no_source_is_newer_than_its_library(platform: str) -> None:
     made_from = COMMITTED[platform].with_name(build.MADE_FROM).read_text().strip()
-    way_out = "Run python -m fmu_src.isolated.native.build and commit the libraries."
+    way_out = "Run python -m fmu_src.isolated.library.build and commit the libraries."
     assert build.fingerprint(platform) == made_from, way_out
 
 
