@@ -106,7 +106,7 @@ def scenario(program: Path, folder: Path) -> list[object]:
 
 @pytest.mark.skipif(not find_spec("hatchling"), reason="needs hatchling")
 def test_the_wheel_has_libraries_and_sources(tmp_path: Path) -> None:
-    root = build.FOLDER.parents[1]
+    root = build.FOLDER.parents[2]
     make = "import sys; from hatchling.build import build_wheel; print(build_wheel(sys.argv[1]))"
     subprocess.run([sys.executable, "-c", make, str(tmp_path)], cwd=root, check=True, capture_output=True)
     (wheel,) = tmp_path.glob("*.whl")
