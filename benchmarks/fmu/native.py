@@ -28,7 +28,7 @@ import fmpy
 from benchmarks.hosts import native_fuzz
 from benchmarks.pages import Page
 from contact_core import Scene
-from fmu_src.isolated.native.build import headers
+from fmu_src.isolated.library.build import headers
 from fmu_src.native.build import runtime
 from fmu_src.package.build import build
 

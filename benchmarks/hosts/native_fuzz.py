@@ -6,7 +6,7 @@ import subprocess
 from collections.abc import Mapping
 from pathlib import Path
 
-from fmu_src.isolated.native.build import headers
+from fmu_src.isolated.library.build import headers
 
 SOURCE = Path(__file__).with_suffix(".c")
 _FLAGS = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", "-fno-math-errno")

@@ -35,7 +35,7 @@ from benchmarks.pages import save
 LISTS = Path(__file__).with_suffix("")
 FOUND = RESULTS / "faults.json"
 LONGEST = 1800.0  # s for the tests of one fault, each more than enough
-NATIVE = Path("fmu_src", "isolated", "native")
+LIBRARY = Path("fmu_src", "isolated", "library")
 NOTICED, SURVIVES, UNKNOWN = "noticed", "survives", "not tried"
 
 
@@ -121,7 +121,7 @@ class Copy:
     def with_faults(self, faults: list[Fault], tests: list[str]) -> tuple[int | None, list[str], str]:
         """Return pytest's exit code (None: it did not end), the tests that failed, and the end of what it printed."""
         files = sorted({file for fault in faults for file in fault.files})
-        native = any(Path(file).is_relative_to(NATIVE) for file in files)
+        native = any(Path(file).is_relative_to(LIBRARY) for file in files)
         kept = self.folder / "kept"
         environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "TRIBOFMU_PYTHON")}
         environment["PATH"] = os.pathsep.join([str(self.python.parent), os.environ["PATH"]])
@@ -129,7 +129,7 @@ class Copy:
             (kept / file).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(self.tree / file, kept / file)
         if native:
-            shutil.copytree(self.tree / NATIVE, kept / "native")
+            shutil.copytree(self.tree / LIBRARY, kept / "library")
         try:
             for fault in faults:
                 for file, old, new in fault.changes:
@@ -141,7 +141,7 @@ class Copy:
                 # numba looks only at the file of the function called: kernels that use a changed one stay as they were
                 environment["NUMBA_CACHE_DIR"] = str(kept / "kernels")
             if native:
-                build = [self.python, "-m", "fmu_src.isolated.native.build"]
+                build = [self.python, "-m", "fmu_src.isolated.library.build"]
                 built = subprocess.run(
                     build, cwd=self.tree, env=environment, capture_output=True, text=True, check=False
                 )
@@ -150,8 +150,8 @@ class Copy:
             return self._pytest(tests, environment, LONGEST * max(1, len(tests) // 5))
         finally:
             if native:
-                shutil.rmtree(self.tree / NATIVE)
-                shutil.copytree(kept / "native", self.tree / NATIVE)
+                shutil.rmtree(self.tree / LIBRARY)
+                shutil.copytree(kept / "library", self.tree / LIBRARY)
             for file in files:
                 shutil.copy2(kept / file, self.tree / file)
                 for compiled in (self.tree / file).parent.glob(f"__pycache__/{Path(file).stem}.*.pyc"):

@@ -1,6 +1,6 @@
 """Layout of the messages between the FMU's library and a worker: little-endian, items at multiples of 8 bytes.
 
-native/message.h describes their contents; change the two together.
+library/message.h describes their contents; change the two together.
 """
 
 import struct
@@ -30,7 +30,7 @@ class Operation(IntEnum):
     ENTER = 3
     EXIT = 4
     STEP = 5
-    LOOK = 6
+    LOOK = 6  # of a get, where outputs are older than what was set: sends that, brings all values
     TERMINATE = 7
     RESET = 8
     SAVE = 9

@@ -1,6 +1,6 @@
 """The channel of a worker on Linux: a file in memory, mapped by host and worker.
 
-native/channel_linux.c is the other side; change the two together.
+library/channel_linux.c is the other side; change the two together.
 """
 
 import ctypes

@@ -15,6 +15,6 @@
 Sources that every FMU shares: instance.c (order of calls, steps), values.c (variables), states.c (saved states),
 derivatives.c (derivatives by inputs), log.c (log), elementary.h (exp, log, powers), elementary_arrays.h (two of them
 at a time); fmi2.c, fmi3.c and fmi3_absent.c pass the calls of FMI on to them. With stresses also normal.h (quantiles).
-Generated for a scene: contact.c, slopes.c and contact.h (the equations), tracks.c (track lengths, in which contacts
-of the same equations may differ), tables.h and model.c.
+Generated for a scene: contact.c, slopes.c and contact.h (the equations; `contact_step` is `program.step`, written by
+`calls.calling`), tracks.c (track lengths, in which contacts of the same equations may differ), tables.h and model.c.
 """

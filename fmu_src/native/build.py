@@ -17,7 +17,7 @@ from shutil import which
 from typing import Literal
 
 from ..flavours import Version
-from ..isolated.native.build import headers
+from ..isolated.library.build import headers
 from . import keeping
 
 Fmi = Version

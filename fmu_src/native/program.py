@@ -1,4 +1,4 @@
-"""contact.c and contact.h: the regression level of one scene in C99, written from its Python.
+"""contact.c, contact.h and slopes.c: one scene in C99, at a level that solves no contact, written from its Python.
 
 `step`, `derivatives` and `first_state` are the program: Python that runs as it stands, and that `translate` writes as C
 for one scene. All equations are those of `contact_core`.
@@ -37,7 +37,7 @@ def bound(given: Case, state: ContactState) -> Case:
     """Return a case with the temperatures of a state. Raises OperatingPointError where it cannot be used."""
     scene, point = given.scene, given.op
     _check_radii(given)
-    case = Case.at(scene, _withown_radii(given), state.temperatures)
+    case = Case.at(scene, _with_own_radii(given), state.temperatures)
     law, bulk, inlet = scene.tribofilm, scene.heat.bulk, scene.lubricant.supply.inlet
     for temperature in point.bodies if bulk.from_inputs else (point.temperature,):
         if law.refusal(_COLD) and not law.covers(temperature):
@@ -82,7 +82,7 @@ def own_radii(scene: Scene) -> dict[str, float]:
     return {name: getattr(scene.operation, name) or getattr(scene.geometry, name) for name in names}
 
 
-def _withown_radii(case: Case) -> OperatingPoint:
+def _with_own_radii(case: Case) -> OperatingPoint:
     """Return an operating point with those radii as constants; None where they are those of the geometry."""
     operation = case.scene.operation
     own = {name: getattr(operation, name) and radius for name, radius in own_radii(case.scene).items()}
@@ -200,7 +200,7 @@ def written(scene: Scene) -> dict[str, str]:
     Contacts that differ in track lengths only, such as the stations of a gear mesh, have all files but tracks.c alike.
     Raises SceneError for a scene that the native FMU cannot have.
     """
-    _check(scene)
+    check(scene)
     geometry, key = scene.geometry, _key(scene)
     if key not in _written:
         _written[key] = _equations_kept(scene)
@@ -291,7 +291,7 @@ def _equations(scene: Scene) -> dict[str, str]:
     )
     return {
         "contact.h": header(
-            f"One contact, '{scene.name}', at the regression level; written from contact_core.",
+            f"One contact, '{scene.name}', at the level '{scene.film.fidelity}'; written from contact_core.",
             variables(scene),
             [f"{number.text}{number.kind[1:]}" for _, number in held],
             outputs,
@@ -302,7 +302,7 @@ def _equations(scene: Scene) -> dict[str, str]:
     }
 
 
-def _check(scene: Scene) -> None:
+def check(scene: Scene) -> None:
     """Raise SceneError for a scene that no native FMU can have."""
     if scene.film.fidelity not in _LEVELS:
         raise SceneError(

@@ -14,13 +14,14 @@ from contact_core.errors import SceneError
 from contact_core.scene import Scene
 
 from ..flavours import VERSIONS, Flavour, Version
+from ..native import program
 from ..runtime import resources
 from ..variables import Variable, variables
 from . import compiled, evidence, fmi2, fmi3, icon, licences, terminals
 from .describe import Model, described, variables_of
 from .document.page import documentation
 
-_NATIVE = files("fmu_src.isolated") / "native"
+_LIBRARY = files("fmu_src.isolated") / "library"
 _LIBRARIES = (".so", ".dll", ".dylib")
 _TUPLES = {"linux64": "x86_64-linux", "win64": "x86_64-windows"}  # FMI 3's names of FMI 2's platforms
 
@@ -62,7 +63,7 @@ def build(
     OSError
         The file cannot be written, or the binaries, a compiler or a licence are missing.
     """
-    check(flavour, fmi)
+    check(flavour, fmi, scene)
     own = {
         **_picture(scene, fmi),
         "documentation/index.html": documentation(scene, flavour, reference, fmi),
@@ -72,8 +73,10 @@ def build(
     return pack(described(scene, flavour, fmi), variables_of(scene, flavour), own, out, flavour, python, fmi)
 
 
-def check(flavour: Flavour, fmi: Version) -> None:
-    """Raise SceneError if the flavour is not built in this version of FMI."""
+def check(flavour: Flavour, fmi: Version, scene: Scene | None = None) -> None:
+    """Raise SceneError if the flavour is not built in this version of FMI or, where one is given, for this scene."""
+    if scene is not None and flavour == "native":
+        program.check(scene)
     if fmi in VERSIONS[flavour]:
         return
     own = " or ".join(str(version) for version in VERSIONS[flavour])
@@ -131,7 +134,7 @@ def _description(
 
 def _of_process(guid: str, python: str | None) -> dict[str, bytes]:
     """Return name and content of the resources that start an isolated FMU; `python` is its interpreter."""
-    found = {"start.py": (_NATIVE / "start.py").read_bytes(), "guid.txt": guid.encode()}
+    found = {"start.py": (_LIBRARY / "start.py").read_bytes(), "guid.txt": guid.encode()}
     return found | ({"python.txt": python.encode()} if python else {})
 
 
@@ -149,7 +152,7 @@ def _write(parts: Mapping[str, bytes], out: Path) -> Path:
 
 def binaries(flavour: Flavour, model: str, fmi: Version = 2) -> dict[str, bytes]:
     """Return the library of a flavour in Python for every platform that has one, under the name of the model."""
-    root = _NATIVE if flavour == "isolated" else files("pythonfmu") / "resources"
+    root = _LIBRARY if flavour == "isolated" else files("pythonfmu") / "resources"
     found = {
         f"binaries/{_folder(platform.name, fmi)}/{model}{Path(library.name).suffix}": library.read_bytes()
         for platform in (root / "binaries").iterdir()

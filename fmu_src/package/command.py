@@ -11,6 +11,7 @@ from shutil import which
 from xml.etree import ElementTree
 
 from contact_core.errors import SceneError
+from contact_core.quantities import UNSOLVED
 from contact_core.scene import Scene, told
 
 from ..flavours import FLAVOURS, VERSIONS, Flavour
@@ -93,15 +94,18 @@ def run(arguments: argparse.Namespace) -> int:
     doubts = scene.doubts()
     if doubts and not arguments.force:
         raise SceneError(f"{' '.join(doubts)} If this is meant, add --force.")
+    from .build import build, check
+
+    check(arguments.flavour, arguments.fmi, scene)
     for warning in (*filter(None, [told(assumed)]), *doubts, *scene.warnings()):
         print(f"Note: {warning}", file=sys.stderr)
     out = arguments.out or Path(f"{scene.name}.fmu")
     _ask_before(out, scene, arguments.force)
     if arguments.flavour == "native":
         print("Note: C is written and compiled, for each platform in turn; this may take minutes.", file=sys.stderr)
-    from .build import build
-
-    print(f"Note: building '{out}'; the first time kernels compile, which takes minutes.", file=sys.stderr)
+    if scene.film.fidelity not in UNSOLVED:
+        solved = "the contact is solved for the reference data; the first time kernels compile, which takes minutes"
+        print(f"Note: {solved}.", file=sys.stderr)
     try:
         recorded = _recorded(_interpreter(arguments))
         print(build(scene, out, arguments.flavour, fmi=arguments.fmi, python=recorded, reference=True))

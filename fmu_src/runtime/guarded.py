@@ -148,7 +148,10 @@ class GuardedSlave(Fmi2Slave):
         self._guard(self._initialise)
 
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """Advance under held inputs. Return False, which ends the simulation, only after the user's interrupt."""
+        """Advance under held inputs. Return False, which ends the simulation, only after the user's interrupt.
+
+        Called by pythonfmu's library (embedded) or isolated/worker.py.
+        """
         if not self._interrupted:
             self._guard(self._step, current_time, step_size)
         return not self._interrupted

@@ -5,7 +5,7 @@ from pathlib import PurePosixPath
 
 from fmpy.fmi3 import FMU3Slave
 
-from fmu_src.isolated.native import image
+from fmu_src.isolated.library import image
 
 from ..fmu.errors import FmuError
 from .package import Package

@@ -19,7 +19,7 @@ from .start import asked, cheapest, sentence
 from .variables import Start
 from .verdict import Answer, Finding, Verdict, failed, not_applicable, noted
 
-# stages of a rule, each in a new process (check.stages)
+# stages of a rule, each in a new process: names of functions that `stages.STAGES` lists
 RULES: dict[str, tuple[str, ...]] = {
     "run": ("run",),
     "guid": ("guid",),
@@ -47,7 +47,7 @@ RULES: dict[str, tuple[str, ...]] = {
     "fork": ("fork",),
     "reference results": ("reference",),
 }
-# FMI does not ask for it: whatever goes wrong there is worth a note
+# stages, not rules. FMI does not ask for it: whatever goes wrong there is worth a note
 _NOT_ASKED = {"resources", "communication_point", "order", "foreign_text", "reloading", "home", "children", "fork"}
 
 UNFINISHED = "Not finished"  # begins the evidence of a rule whose time was used up

@@ -21,6 +21,7 @@ from .verdict import Answer, failed
 
 Stage = Callable[[Fmu, Path], Answer | None]
 
+# by their names, by which the rules of `deep` point to them
 STAGES: dict[str, Stage] = {
     stage.__name__: stage
     for stage in (

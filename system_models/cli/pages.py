@@ -86,5 +86,7 @@ def page_of(error: ContactError, command: str) -> str:
     for words, page in _TOPICS:
         if re.search(words, str(error)):
             return page
+    if command == "build" and re.search(r"flavour|--python", str(error)):  # no fault of the scene
+        return _OF_COMMANDS[command]
     kind = next((page for each, page in _OF_ERRORS.items() if isinstance(error, each)), None)
     return kind or _OF_COMMANDS.get(command, _ELSE)

@@ -42,6 +42,7 @@ def test_a_scene_file_is_built_where_out_says(tmp_path, capsys):
         (["mtm_zddp", "--set", "plasticity.hardness=-1 GPa"], "plasticity.hardness = -1e+09 Pa"),
         (["mtm_zddp", "--set", "surface_1.correlation_length=1 um"], "nodes of the grid"),
         (["mtm_zddp", "--set", "film.points"], "has no '='"),
+        (["mtm_zddp", "--flavour", "native", "--set", "film.model=deterministic"], "a native FMU has no solver"),
     ],
 )
 def test_a_bad_scene_is_refused_with_a_sentence(tmp_path, monkeypatch, capsys, arguments, named):
@@ -49,6 +50,7 @@ def test_a_bad_scene_is_refused_with_a_sentence(tmp_path, monkeypatch, capsys, a
     assert main(arguments) == 2
     printed = capsys.readouterr()
     assert named in printed.err
+    assert "Note: the contact is solved" not in printed.err
     assert printed.out == ""
     assert list(tmp_path.iterdir()) == []
 
@@ -123,6 +125,12 @@ def test_a_native_fmu_takes_a_level_that_solves_nothing_and_says_so(asked, capsy
     said = capsys.readouterr().err
     assert f"the level '{level}' in place of 'deterministic'" in said
     assert "friction_coefficient +- " in said
+
+
+@pytest.mark.parametrize("level", ["deterministic", "regression"])
+def test_that_kernels_may_compile_is_said_where_the_contact_is_solved(asked, capsys, level):
+    asked("mtm_zddp", "--set", f"film.model={level}")
+    assert ("kernels compile" in capsys.readouterr().err) is (level == "deterministic")
 
 
 def test_a_native_fmu_of_a_level_that_is_asked_for_is_left_alone(asked, capsys):

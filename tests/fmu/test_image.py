@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fmu_src.isolated.native import build
-from fmu_src.isolated.native.image import DamagedError, Image, ImageError, platform, read
+from fmu_src.isolated.library import build
+from fmu_src.isolated.library.image import DamagedError, Image, ImageError, platform, read
 
 OURS = {name: build.FOLDER / "binaries" / name / platform.library for name, platform in build.PLATFORMS.items()}
 OTHERS = files("pythonfmu") / "resources" / "binaries"

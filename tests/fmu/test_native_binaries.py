@@ -13,7 +13,7 @@ from fmu_host import unpacked
 
 from benchmarks.hosts.native_host import OK, NativeHost, compiled, plain_environment
 from contact_core import Scene
-from fmu_src.isolated.native import build, image
+from fmu_src.isolated.library import build, image
 from fmu_src.package.build import binaries
 from fmu_src.package.build import build as build_fmu
 
@@ -62,7 +62,7 @@ def test_an_isolated_fmu_takes_all_of_them() -> None:
 @pytest.mark.parametrize("platform", COMMITTED)
 def test_no_source_is_newer_than_its_library(platform: str) -> None:
     made_from = COMMITTED[platform].with_name(build.MADE_FROM).read_text().strip()
-    way_out = "Run python -m fmu_src.isolated.native.build and commit the libraries."
+    way_out = "Run python -m fmu_src.isolated.library.build and commit the libraries."
     assert build.fingerprint(platform) == made_from, way_out
 
 
@@ -106,7 +106,7 @@ def scenario(program: Path, folder: Path) -> list[object]:
 
 @pytest.mark.skipif(not find_spec("hatchling"), reason="needs hatchling")
 def test_the_wheel_has_libraries_and_sources(tmp_path: Path) -> None:
-    root = build.FOLDER.parents[1]
+    root = build.FOLDER.parents[2]
     make = "import sys; from hatchling.build import build_wheel; print(build_wheel(sys.argv[1]))"
     subprocess.run([sys.executable, "-c", make, str(tmp_path)], cwd=root, check=True, capture_output=True)
     (wheel,) = tmp_path.glob("*.whl")

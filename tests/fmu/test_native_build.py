@@ -7,7 +7,7 @@ from dataclasses import replace
 import native_fmu
 import pytest
 
-from fmu_src.isolated.native import image
+from fmu_src.isolated.library import image
 from fmu_src.native import build, files, model
 
 pytestmark = [pytest.mark.fmu]

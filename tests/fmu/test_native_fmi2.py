@@ -9,7 +9,7 @@ import native_fmu
 import pytest
 
 from benchmarks.hosts.native_host import DISCARD, ERROR, NONE, OK, WARNING, Instance, NativeHost, plain_environment
-from fmu_src.isolated.native import image
+from fmu_src.isolated.library import image
 from tests.comparison import approx
 
 pytestmark = [pytest.mark.fmu, pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")]

@@ -12,7 +12,7 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave, fmi3Float64, fmi3ValueReference
 
-from fmu_src.isolated.native import image
+from fmu_src.isolated.library import image
 from fmu_src.native import build
 from tests.comparison import approx
 

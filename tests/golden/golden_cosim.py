@@ -1,4 +1,4 @@
-"""Commands that simulate: the co-simulation of docs/cosim.md, runs of scenes, Stribeck curves."""
+"""Commands that simulate: the co-simulation of docs/how-to/cosim.md, runs of scenes, Stribeck curves."""
 
 import subprocess
 import sys

@@ -98,6 +98,7 @@ def test_a_wheel_carries_the_text_of_all_pages() -> None:
         (SceneError("operation.load has no unit."), "run", "scenes"),
         (ConvergenceError("No solution was found."), "run", "numerics"),
         (ContactError("The FMU has no load."), "cosim", "cosim"),
+        (SceneError("There is no FMU of FMI 3.0 with flavour = 'embedded'."), "build", "fmu"),
         (ContactError("The folder cannot be made."), "list", "run"),
     ],
 )

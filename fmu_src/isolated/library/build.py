@@ -1,4 +1,4 @@
-"""Build the library of isolated FMUs: python -m fmu_src.isolated.native.build [--platform ...].
+"""Build the library of isolated FMUs: python -m fmu_src.isolated.library.build [--platform ...].
 
 The committed libraries are built by zig (pip install tribofmu[native]), which supports every platform and old C
 libraries: equal sources and versions of zig give equal bytes on any machine. gcc serves to try a change on Linux.
@@ -113,7 +113,7 @@ def available(compiler: str) -> bool:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line."""
     parser = argparse.ArgumentParser(
-        prog="python -m fmu_src.isolated.native.build", description="Build the library of isolated FMUs."
+        prog="python -m fmu_src.isolated.library.build", description="Build the library of isolated FMUs."
     )
     parser.add_argument("--platform", choices=PLATFORMS, nargs="+", help="default: all that the compiler supports")
     parser.add_argument("--compiler", choices=COMPILERS, default="zig", help="default: %(default)s")
