@@ -82,14 +82,16 @@ class Scene(SceneFields):
         return checked(replace(self, **{name: surface}))
 
     def at_level(self, level: str) -> "Scene":
-        """Return the scene at a fidelity, one of `quantities.LEVELS`, on the same grid: both levels share their states.
+        """Return the scene at a level or correction, on the same grid: both levels share their states.
 
-        Fields that only the film of the other level has get their defaults. Raises SceneError for an unknown fidelity.
+        `level` is deterministic, regression, or the latter with its correction, blocks or map. Of `quantities.LEVELS`
+        auto stands for blocks: its name as a fidelity. Fields that only the film of the other level has get their
+        defaults. Raises SceneError for an unknown one.
         """
+        level = CORRECTIONS.get(level, level)
         if level not in LEVELS:
-            raise SceneError(
-                f"There is no level '{level}'.{did_you_mean(level, list(LEVELS))} Known are {', '.join(LEVELS)}."
-            )
+            known = ["deterministic", "regression", *list(CORRECTIONS)[1:]]
+            raise SceneError(f"There is no level '{level}'.{did_you_mean(level, known)} Known are {', '.join(known)}.")
         if self.film.fidelity == level:
             return self
         corrections = {fidelity: correction for correction, fidelity in CORRECTIONS.items()}
