@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, replace
+from functools import cached_property
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -123,6 +124,11 @@ class Scene(SceneFields):
     def refusal(self, op: OperatingPoint) -> str:
         """Return why the scene cannot have an operating point, or an empty text."""
         return checks.refusal(self, op)
+
+    @cached_property
+    def refused(self) -> str:
+        """Sentences on what `replace` lets through: numbers outside their ranges, or wear that contradicts itself."""
+        return " ".join(out_of_range(self, "")) or " ".join(said for _, said in checks.wear_errors(self))
 
     def check(self) -> list[tuple[str, str]]:
         """Return (rule, sentence) for everything that makes the scene unusable."""
