@@ -64,6 +64,8 @@ def _read(source: str | Path, duty: Duty | None) -> tuple[Scene, Duty, Sequence[
     """Return the scene of a name or a file, large enough for the duty, and the values that it does not give."""
     scene, assumed = Scene.read(source)
     duty = duty or Duty.of_scene(scene, Path(source).parent)
+    if more := duty.for_grid(scene, assumed):
+        scene, assumed = Scene.read(source, more)
     return duty.sized(scene), duty, assumed
 
 

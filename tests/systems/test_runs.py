@@ -19,7 +19,8 @@ solids.set = "steel"
 surface_1.finish = "polished"
 surface_2.finish = "ground"
 lubricant.viscosity = { viscosity_40 = "46 mm2/s", viscosity_100 = "6.8 mm2/s", density = "870 kg/m3" }
-operation = { load = "50 N", speed_1 = "1.1 m/s", speed_2 = "0.9 m/s", temperature = "60 degC", duration = "1 min" }
+operation = { load = "50 N", speed_1 = "1.1 m/s", speed_2 = "0.9 m/s", temperature = "60 degC", duration = "1 min", \
+file = "duty.csv" }
 """
 
 
@@ -60,6 +61,7 @@ def test_a_contact_runs_in_one_call_as_by_the_command_and_prints_nothing(
 def test_a_scene_by_its_file_is_read_as_by_the_command_with_what_it_assumes(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     file.write_text(MINE, encoding="utf-8")
+    (tmp_path / "duty.csv").write_text("time [s],load [N]\n0,50\n30,400\n", encoding="utf-8")  # on a wider grid
     done = run_contact(file, tmp_path / "python")
     main(["run", str(file), "--out", str(tmp_path / "command")])
     with xr.open_dataset(tmp_path / "command" / "result.nc") as result:
