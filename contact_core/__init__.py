@@ -22,6 +22,8 @@ and a correction may move the estimate. Where to find what:
     reference/       closed forms: Hertz and stress below, films of points and lines, starvation, heat, wear
     quantities       names, symbols, units, signs and ranges of every input and output
     entry_points     what other installed packages offer
+    errors of answers  of calls film/estimate.py; of marches deterministic/solution_error.py by film/grid_error.py and
+                     state/trends.py; of the regression level regression/outputs.py
     progress         what a long step is doing, for those who wait
     errors           what can go wrong, each message with a way out
     data/            named oils, solids and tribofilms, and the shipped scenes
@@ -40,7 +42,6 @@ from .calls.point_contact import PointContact, point_contact
 from .calls.subsurface_stress import SubsurfaceStress, graded_depths, subsurface_stress
 from .deterministic.instant import ContactFields, Transient, solve
 from .deterministic.march import Moment, march, run_cycle
-from .deterministic.present import present_instant
 from .deterministic.transient import parted
 from .errors import ContactError, ConvergenceError, FilmTooWideError, OperatingPointError, SceneError, StateError
 from .laws.profile import Logarithmic, Measured, Rounded
@@ -85,7 +86,6 @@ __all__ = [
     "march",
     "parted",
     "point_contact",
-    "present_instant",
     "run_cycle",
     "shipped_scenes",
     "solve",

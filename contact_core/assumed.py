@@ -1,8 +1,8 @@
 """What the assumptions of a scene are worth: half widths of its answers by the intervals of what it assumes.
 
 Each interval's ends go through the regression level, on new surfaces at an operating point, one by one; the larger
-change of an answer is the half width by that assumption, and they add as if they were independent. They are not in the
-errors of `uncertainty`, which are those of solving the scene as it is.
+change of an answer is the half width by that assumption, and they add as if they were independent. What rubbing makes
+of the surfaces is not in them, nor are they in the errors of `uncertainty`: those are of solving the scene as it is.
 """
 
 import math

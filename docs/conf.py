@@ -30,6 +30,7 @@ myst_fence_as_directive = ["math"]  # as GitHub has it
 html_math_renderer = "mathtext"
 
 autodoc_member_order = "bysource"
+napoleon_use_ivar = True  # attributes are described in the docstrings of their classes alone
 autodoc_typehints = "description"
 autodoc_default_options = {"members": True, "undoc-members": False}
 

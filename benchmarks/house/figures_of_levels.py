@@ -3,7 +3,7 @@
 import re
 
 from benchmarks.house.figures_of_contacts import ASKED
-from benchmarks.house.tables import Pages, Row, link, number, numbers, per_cent, range_of, table
+from benchmarks.house.tables import Pages, Row, link, number, numbers, per_cent, table
 
 
 def held_back(pages: Pages) -> list[str]:
@@ -33,16 +33,12 @@ def two_hours(pages: Pages) -> list[str]:
     every, lines = pages.rows("speed_error", "wear 1", "Two hours"), []
     names = ("friction", "h_c", "W_c", "tribofilm 1", "tribofilm 2", "wear 1", "wear 2")
     for setting in ("regression", "20 %", "10 %", "257 nodes"):
-        rows = [row for row in every if row["setting"] == setting]
-        off = [
-            f"{' to '.join(range_of((row[name] for row in rows), '{:.1f}'.format))} "
-            f"({min(numbers(row[name])[1] for row in rows):.0f} %)"
-            for name in names
-            if setting != "257 nodes"
-        ]
-        cost = range_of((row["CPU [s]"] for row in rows), "{:.4g}".format)
-        lines.append((ASKED.get(setting, setting), rows[0]["nodes"], " to ".join(cost), *(off or ["-"] * len(names))))
-    return table(("asked for", "nodes", "CPU s", *names), lines)
+        for row in (row for row in every if row["setting"] == setting):
+            found = [numbers(row[name]) for name in names if setting != "257 nodes"]
+            off = [f"{error:.1f} ({covered:.0f} %)" for error, covered in found] or ["-"] * len(names)
+            scene = row["case"].partition(",")[0]
+            lines.append((ASKED.get(setting, setting), scene, row["nodes"], row["CPU [s]"], *off))
+    return table(("asked for", "scene", "nodes", "CPU s", *names), lines)
 
 
 def grids_in_time(pages: Pages) -> tuple[str, ...]:

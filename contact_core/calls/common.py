@@ -42,7 +42,7 @@ _CHOICES = {
 
 @dataclass(frozen=True)
 class FilmContact(Convergence):
-    """Result of a call, in SI. Arrays [ny, nx], x along entrainment of positive speed."""
+    """Result of a call: `PointContact` says what its attributes are."""
 
     x: Array  # [nx]
     y: Array  # [ny]

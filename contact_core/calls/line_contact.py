@@ -35,7 +35,7 @@ _BESIDE = 1.02  # grid over length of a line with ends
 
 
 class LineContact(FilmContact):
-    """Result of `line_contact`. Without ends ny rows repeat across, one for smooth bodies."""
+    """Result of `line_contact`, as `PointContact`. Without ends ny rows repeat across, one for smooth bodies."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -30,7 +30,45 @@ _SLIMMEST = 30.0  # ratio of the radii, either way
 
 
 class PointContact(FilmContact):
-    """Result of `point_contact`."""
+    """Result of `point_contact`, in SI. Arrays [ny, nx], x along entrainment of positive speed.
+
+    Attributes
+    ----------
+    x, y
+        Places of the columns and of the rows [m].
+    pressure, fluid_pressure, solid_pressure
+        Total pressure, and its parts in the oil and on the solids [Pa].
+    film, oil
+        Gap, at least the floor, and density ratio times thickness of the oil in it, less than the gap in cavities [m].
+    h_c
+        Central film thickness: mean gap over the inner 2/3 of Hertz's contact, r < 2a/3, or such an ellipse or strip
+        [m].
+    h_central
+        Gap at the centre of the contact: one node, of a rough contact no film thickness [m].
+    h_min
+        Smallest gap [m].
+    contact_area_ratio, contact_load_ratio
+        Area of solid contact over Hertz's, and the solids' share of the load, 0 to 1.
+    pressure_max
+        Largest pressure [Pa].
+    approach
+        Approach of the bodies [m].
+    error_estimate
+        Half width of each of these numbers, in its unit, by coarser grids and a cut inlet.
+    warnings
+        Reasons why the answer is less reliable.
+    steps
+        Grids that were solved to meet `accuracy`, in their order.
+    converged, shortfall
+        Whether the solution is one, and what is missing.
+    route, algorithm
+        "mixed" or "dry" (no entrainment), and what found the film.
+    load_beyond
+        Share of the load that a film wider than the grid carries beyond its edge.
+    inlet_nodes, resolved
+        Nodes across the inlet zone, and whether these are enough for a film that does not depend on the grid.
+
+    """
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -39,7 +39,32 @@ class Transient:
 
 @dataclass(frozen=True)
 class ContactFields(Convergence):
-    """Everything about one instant. Arrays [ny, nx] on the grid of the contact, x along entrainment, SI."""
+    """Everything about one instant. Arrays [ny, nx] on the grid of the contact, x along entrainment, SI.
+
+    Attributes
+    ----------
+    x, y
+        Places of the columns and rows [m]; nodes of a march move on with the oil, by half of their distance at most.
+    pressure, fluid_pressure, solid_pressure
+        Total pressure, and its parts in the oil and on the solids [Pa].
+    gap
+        Gap, at least film.floor [m].
+    heights, roughness
+        Heights of both bodies together, positive into the gap, and the same without the grooves' shape [m].
+    cover_1, cover_2
+        Tribofilm of each body over its full thickness.
+    overlap
+        What yields plastically in this instant [m].
+    fluid_shear, solid_shear
+        Shear stress on body 2 along +x [Pa].
+    shear, oil_shear, rubbing_shear
+        Shear stress in the direction of the local sliding, of solids and oil together and of either [Pa].
+    touching
+        Share of a node's area where solids touch.
+    friction, temperatures
+        Forces, and temperatures of the contact.
+
+    """
 
     x: Array  # [nx]; nodes of a march move on with the oil, by half of their distance at most
     y: Array  # [ny]

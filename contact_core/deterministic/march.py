@@ -1,5 +1,7 @@
 """A contact whose load, speeds and radii change while it runs: consecutive instants in time.
 
+The mixed instants of a block at constant inputs are a march, too, that of `sampling` by the steps of `transient`.
+
 The film remembers (squeeze term), at every speed and at rest. Both bodies move on with their speeds, no rough one, and
 no oil on it, by more than a node from instant to instant. `run_cycle` applies the exposure of one sampled cycle, such
 as the mesh of a tooth, to many.
@@ -32,7 +34,22 @@ _ROUNDING = 1e-6  # of a node: a step may be longer than a node by so much
 
 @dataclass(frozen=True)
 class Moment:
-    """One instant of a march."""
+    """One instant of a march.
+
+    Attributes
+    ----------
+    time
+        Time [s].
+    case
+        Scene and operating point, bound.
+    state
+        That from which the next instant follows; its outputs stand as they were before the march.
+    fields
+        Pressure, gap and shear by node; `route` says if the contact is open, or dry.
+    outputs
+        Outputs of the instant by their names, in SI.
+
+    """
 
     time: float  # [s]
     case: Case

@@ -107,7 +107,9 @@ def _passing(case: Case, time: float) -> float:
     """Return the part of the gap's mean square change that is sliding, where the smoother body jumps after a time [s].
 
     Heights of a correlation length l, d apart, differ by 2 rms^2 (d / l)^2 in the mean square, those of a body that has
-    jumped by 2 rms^2.
+    jumped by 2 rms^2. This share of the mean square scales the change of each gap itself: it is the regression
+    coefficient of independent Gaussian changes, E[sliding part | whole change]. Instants without a jump take the same
+    share, for simplicity.
     """
     rougher, smoother = (case.sides[i].surface for i in (case.scene.rougher, 1 - case.scene.rougher))
     slid = rougher.rms * abs(case.op.sliding_speed) * time / rougher.length

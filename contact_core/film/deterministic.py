@@ -20,7 +20,8 @@ _GOVERNING = (
             "∂/∂x [ρ h^3/(12 η) ∂p_f/∂x] + ∂/∂y [ρ h^3/(12 η) ∂p_f/∂y] = u_e ∂(ρ h)/∂x + ∂(ρ h)/∂t",
             "p_f ≥ 0,   u_e = (u_1 + u_2)/2",
         ),
-        "At every node, with the squeeze of the passing roughness.",
+        "At every node, with the squeeze of the passing roughness: `residual` in kernels/mixed/reynolds.py, "
+        "and the flows between nodes in flow.py beside it.",
         title="Flow of the oil (Reynolds)",
         source="Reynolds 1886, doi:10.1098/rstl.1886.0005",
     ),

@@ -24,7 +24,8 @@ class Regression:
 
     name: ClassVar[str] = "regression"
     source: ClassVar[str] = (
-        "film: Nijenbanning, Venner & Moes 1994, doi:10.1016/0043-1648(94)90150-3; sharing: see its source; "
+        "film: Nijenbanning, Venner & Moes 1994, doi:10.1016/0043-1648(94)90150-3, "
+        "formula: reference/point_films.py; sharing: see its source; "
         "smoothing: fitted to solved contacts"
     )
 

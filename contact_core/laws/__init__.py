@@ -11,7 +11,7 @@
     scuffing            risk of scuffing: the hottest spot against a critical temperature
     load_sharing        load on solids and oil at the regression level
     profile             ends of rollers
-    asperity_layer      roughness below the grid: not yet in a scene
+    asperity_layer      roughness below the grid: `microroughness` of a surface
     temperatures        records of the heat and the temperatures of a contact
     equations           text of a law's equations, for documentation
     symbols             what the symbols of these equations stand for

@@ -294,7 +294,12 @@ class Tribofilm(Law, Protocol):
 
 
 class Wear(Law, Protocol):
-    """Removal of the solids."""
+    """Removal of the solids.
+
+    `rate` is what wears, `slide` the speed in it. `coefficient` is that of `rate` under a pressure p of the hardness H,
+    rate = coefficient slide p / H: it alone limits the time steps in which wear is stable, so a scene whose law has
+    another one is refused. `film_removal` is that of a law with `wears_film`; others return 0.
+    """
 
     wears: ClassVar[bool]
     wears_film: ClassVar[bool]  # rubbing takes tribofilm, at the rate `film_removal`

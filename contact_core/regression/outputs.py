@@ -128,6 +128,11 @@ def _exposure_error(sharing: FittedSharing) -> float:
 
 
 def _lambda_ratio(case: Case, contact: MeanContact) -> float:
+    """Return lambda = h_c / sigma, at most 1000.
+
+    sigma = composite rms roughness as worn: here of the track means, in a solved contact of the deformed surfaces over
+    the area of h_c (`deterministic.observed`). The lambda of handbooks has new surfaces and the film by formula.
+    """
     if contact.sigma == 0.0 or not case.loaded:
         return _LAMBDA_CAP
     return min(contact.gap / contact.sigma, _LAMBDA_CAP)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import OperatingPointError
+from ..errors import OperatingPointError, SceneError
 from ..film.inlet_loss import lost_film
 from ..film.instant import Grid
 from ..laws.asperity_layer import AsperityLayer
@@ -56,8 +56,12 @@ class Case:
         ------
         OperatingPointError
             For inputs that cannot be used.
+        SceneError
+            For what `dataclasses.replace` lets through, see `Scene.refused`.
 
         """
+        if scene.refused:
+            raise SceneError(scene.refused)
         op.check()
         refusal = scene.refusal(op)
         if refusal:

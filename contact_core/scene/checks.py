@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from dataclasses import fields, replace
 from itertools import pairwise
 
+import numpy as np
+
 from ..quantities import out_of_range
 from . import intervals
 from .fields import ROOM, SceneFields
@@ -62,7 +64,8 @@ def errors(scene: SceneFields) -> list[tuple[str, str]]:
     if not re.fullmatch(r"[\w-]+", scene.name):  # files are named after it
         ranges.append(("name", f"name = {scene.name!r} must be letters, digits, '_' and '-' only."))
     return ranges or [
-        *_shape_errors(scene), *_roughness_errors(scene), *_oil_errors(scene), *_duty_errors(scene),
+        *_shape_errors(scene), *wear_errors(scene), *_roughness_errors(scene), *_oil_errors(scene),
+        *_duty_errors(scene),
         *(("intervals", sentence) for sentence in intervals.errors(scene)),
     ]  # fmt: skip
 
@@ -130,6 +133,23 @@ def _shape_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
             f"wear.model = '{scene.wear.name}' takes tribofilm in proportion to its thickness; tribofilm.model = "
             f"'{scene.tribofilm.name}' has no closed form with that. Use wear.model = 'archard', or another tribofilm.",
         )
+
+
+def wear_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
+    """Yield an error of a law of wear whose `coefficient`, which limits time steps, is not that of its `rate`."""
+    wear, hardness, full = scene.wear, scene.plasticity.hardness, scene.tribofilm.full_thickness
+    cover, speeds = np.array([0.0, 1.0]), (1.0, 0.5)
+    for body in (0, 1):
+        rate = wear.rate(np.full(2, hardness), cover, speeds, body, hardness, full)
+        expected = wear.coefficient(cover, full) * wear.slide(speeds, body)
+        if not np.allclose(rate, expected, rtol=1e-6, atol=0.0):
+            yield (
+                "wear",
+                f"wear.model = '{wear.name}' contradicts itself: under a pressure of the hardness its rate, "
+                f"{rate[0]:.3g} m/s of bare solids, must be its coefficient times the speed of `slide`, "
+                f"{expected[0]:.3g} m/s.",
+            )
+            return
 
 
 def _roughness_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:

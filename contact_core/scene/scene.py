@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, replace
+from functools import cached_property
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -82,14 +83,16 @@ class Scene(SceneFields):
         return checked(replace(self, **{name: surface}))
 
     def at_level(self, level: str) -> "Scene":
-        """Return the scene at a fidelity, one of `quantities.LEVELS`, on the same grid: both levels share their states.
+        """Return the scene at a level or correction, on the same grid: both levels share their states.
 
-        Fields that only the film of the other level has get their defaults. Raises SceneError for an unknown fidelity.
+        `level` is deterministic, regression, or the latter with its correction, blocks or map. Of `quantities.LEVELS`
+        auto stands for blocks: its name as a fidelity. Fields that only the film of the other level has get their
+        defaults. Raises SceneError for an unknown one.
         """
+        level = CORRECTIONS.get(level, level)
         if level not in LEVELS:
-            raise SceneError(
-                f"There is no level '{level}'.{did_you_mean(level, list(LEVELS))} Known are {', '.join(LEVELS)}."
-            )
+            known = ["deterministic", "regression", *list(CORRECTIONS)[1:]]
+            raise SceneError(f"There is no level '{level}'.{did_you_mean(level, known)} Known are {', '.join(known)}.")
         if self.film.fidelity == level:
             return self
         corrections = {fidelity: correction for correction, fidelity in CORRECTIONS.items()}
@@ -121,6 +124,11 @@ class Scene(SceneFields):
     def refusal(self, op: OperatingPoint) -> str:
         """Return why the scene cannot have an operating point, or an empty text."""
         return checks.refusal(self, op)
+
+    @cached_property
+    def refused(self) -> str:
+        """Sentences on what `replace` lets through: numbers outside their ranges, or wear that contradicts itself."""
+        return " ".join(out_of_range(self, "")) or " ".join(said for _, said in checks.wear_errors(self))
 
     def check(self) -> list[tuple[str, str]]:
         """Return (rule, sentence) for everything that makes the scene unusable."""

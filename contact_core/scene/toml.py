@@ -292,7 +292,10 @@ def _build_law(models: tuple[type[Model], ...], raw: Any, path: str) -> Any:
     model = table.pop("model", None)
     if model not in names:
         said = f"has no model '{model}'." + did_you_mean(str(model), list(names)) if model else "needs a 'model'."
-        raise SceneError(f"[{path}] {said} Known are {', '.join(names)}. Its parameters are keys of [{path}].")
+        slot = path.rpartition(".")[2]
+        offer = f" A package installed in this Python can offer it by an entry point tribofmu.laws.{slot}."
+        offer = offer if slot in SLOTS else ""
+        raise SceneError(f"[{path}] {said} Known are {', '.join(names)}. Its parameters are keys of [{path}].{offer}")
     return build(names[model], table, path)
 
 

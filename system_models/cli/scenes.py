@@ -80,9 +80,8 @@ def contact_of(arguments: argparse.Namespace, overrides: dict[str, str]) -> Cont
     folder = folder_of_duty(arguments)
     refuse_hidden(scene, folder, overrides)
     duty = Duty.of_scene(scene, folder)
-    largest = max(point.load for point in duty.points)
-    if largest > scene.largest_load and any(each.key == "film.domain" for each in assumed):  # a grid for that load
-        overrides = overrides | {"operation.largest_load": f"{largest!r} N"}
+    if more := duty.for_grid(scene, assumed):
+        overrides = overrides | more
         scene, assumed = Scene.read(arguments.scene, overrides)
     ask_back(scene.doubts(duty.named(scene)), arguments.force)
     tell_assumed(assumed)

@@ -50,6 +50,7 @@ FORMULAS: dict[str, dict[str, tuple[str, ...]]] = {
             "FittedSharing.coverage",
             "Widths",
         ),
+        "contact_core/regression/outputs.py": ("_lambda_ratio",),
     },
     "Fits": {
         "system_models/run/fit_estimate.py": (),

@@ -115,7 +115,7 @@ def sentence(scene: Scene, dataset: xr.Dataset) -> list[str]:
     except ContactError:
         return []
     parts = [f"{_WORDS[name]} {_told(name, each)}" for name, each in worth.items() if each.together >= LEAST[name]]
-    return [f"Assumed, beside these errors: {'; '.join(parts)}."] if parts else []
+    return [f"Assumed, beside these errors, of new surfaces: {'; '.join(parts)}."] if parts else []
 
 
 def _told(output: str, worth: Assumption) -> str:

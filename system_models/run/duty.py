@@ -7,14 +7,14 @@ the scene's value.
 
 import bisect
 import hashlib
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 from pathlib import Path
 
 from contact_core.errors import SceneError
 from contact_core.quantities import TABLE
-from contact_core.scene import OperatingPoint, Scene, Step
+from contact_core.scene import Assumed, OperatingPoint, Scene, Step
 
 from . import duty_table
 
@@ -75,6 +75,12 @@ class Duty:
         points = [tuple(None if value is None else float(value).hex() for value in row) for row in values]
         digest = hashlib.sha256(repr([[float(time).hex() for time in self.times], points]).encode()).hexdigest()
         return f"{len(self.times)} rows, fingerprint {digest[:16]}"
+
+    def for_grid(self, scene: Scene, assumed: Iterable[Assumed]) -> dict[str, str]:
+        """Return what to override in a scene of an `assumed` domain for a grid of the duty's loads, if needed."""
+        largest = max(point.load for point in self.points)
+        chosen = any(each.key == "film.domain" for each in assumed)
+        return {"operation.largest_load": f"{largest!r} N"} if chosen and largest > scene.largest_load else {}
 
     def sized(self, scene: Scene) -> Scene:
         """Return the scene with `operation.largest_load` raised to the duty's, so that its checks hold throughout.

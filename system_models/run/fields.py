@@ -56,19 +56,20 @@ def _check(scene: Scene, points: Sequence[float], count: int) -> None:
     if not scene.film.on_grid:
         raise ContactError(
             f"--fields {count}: film.model = '{scene.film.name}' has no fields, its surfaces are means over the track. "
-            "Use --set film.model=deterministic, or leave --fields out."
+            "Use --set film.model=deterministic, or leave --fields out (in Python: fields)."
         )
     if not 1 <= count <= len(points):
         raise ContactError(
             f"--fields {count} must be at least 1 and at most {len(points)}, the rows of this run. Use such a number, "
-            "or a shorter operation.interval for more rows."
+            "or a shorter operation.interval for more rows (in Python: fields)."
         )
     each = maps.size_of(scene)
     size = count * each
     if size > _MOST:
         raise ContactError(
             f"--fields {count} would keep {size / 1e9:.3g} GB of maps, {each / 1e6:.3g} MB at each time; at most "
-            f"{_MOST / 1e9:g} GB are kept. Use --fields {int(_MOST / each)} or less, or a coarser --grid."
+            f"{_MOST / 1e9:g} GB are kept. Use --fields {int(_MOST / each)} or less, or a coarser --grid "
+            "(in Python: fields, film.points)."
         )
     if size > _MUCH:
         log.warning("--fields %d keeps %.2g GB of maps in memory; result.nc has them compressed.", count, size / 1e9)

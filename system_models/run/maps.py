@@ -13,7 +13,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from contact_core import ContactState, OperatingPoint, Scene, initial_state, present_instant, track_of
+from contact_core import ContactState, OperatingPoint, Scene, initial_state, track_of
+from contact_core.deterministic.present import present_instant
 from contact_core.errors import ContactError
 from contact_core.scene import Case
 from contact_core.surfaces.patches import bare_heights

@@ -70,17 +70,17 @@ class Plan:
         if not (0.0 < slowest < fastest < np.inf):
             raise ContactError(
                 f"The speeds of a sweep, {fastest:g} m/s down to {slowest:g} m/s, must be above 0 and fall. "
-                "Use --fastest and --slowest the other way round, or others."
+                "Use --fastest and --slowest the other way round, or others (in Python: fastest, slowest)."
             )
         if points < 2:
-            raise ContactError(f"A sweep of {points} speeds is no curve. Use --points 2 or more.")
+            raise ContactError(f"A sweep of {points} speeds is no curve. Use --points 2 or more (in Python: points).")
         if not times or not all(0.0 <= time < np.inf for time in times):
             raise ContactError("The rubbing times must be at least one, finite and not negative. Use for example 0,30.")
         if srr is None:
             if reference.entrainment_speed == 0.0:
                 raise ContactError(
                     "The duty begins without entrainment (speed_1 + speed_2 = 0 m/s), so it has no slide-to-roll "
-                    "ratio. Give one with --srr."
+                    "ratio. Give one with --srr (in Python: srr)."
                 )
             srr = reference.sliding_speed / reference.entrainment_speed
         speeds = tuple(np.geomspace(fastest, slowest, points).tolist())

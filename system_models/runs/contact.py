@@ -25,7 +25,7 @@ from .replacing import ask_before
 
 
 def run_contact(
-    scene: Scene,
+    scene: Scene | str | Path,
     folder: str | Path,
     duty: Duty | None = None,
     *,
@@ -40,22 +40,33 @@ def run_contact(
 
     Parameters
     ----------
-    scene : large enough for the duty (`Duty.sized`).
+    scene : large enough for the duty (`Duty.sized`), or the name of a shipped one or the path of its file.
     duty : by default that of the scene.
     fields : at so many times of the run maps and profiles are kept.
-    assumed : values that the scene does not give (`Scene.read`), for the result's record.
+    assumed : values that a `Scene` was not given (`Scene.read`), for the result's record.
     about : lines on the scene, beside what the run says before it starts.
     resume : continue from a checkpoint in the folder, bit for bit; a finished run is returned as it is.
     force : replace the result of another scene.
 
     Raises ContactError for what cannot be run; what was computed is kept in the folder.
     """
+    if not isinstance(scene, Scene):
+        scene, duty, assumed = _read(scene, duty)
     duty = duty or Duty.of_scene(scene)
     job = _Job(scene, duty, _fields(scene, duty, fields), made(Path(folder)), listener)
     for warning in scene.warnings():
         listener.warn(warning)
     with alone(job.folder):
         return job.run(assumed_values.attribute(assumed), about, resume, force)
+
+
+def _read(source: str | Path, duty: Duty | None) -> tuple[Scene, Duty, Sequence[Assumed]]:
+    """Return the scene of a name or a file, large enough for the duty, and the values that it does not give."""
+    scene, assumed = Scene.read(source)
+    duty = duty or Duty.of_scene(scene, Path(source).parent)
+    if more := duty.for_grid(scene, assumed):
+        scene, assumed = Scene.read(source, more)
+    return duty.sized(scene), duty, assumed
 
 
 def _fields(scene: Scene, duty: Duty, count: int | None) -> Fields | None:

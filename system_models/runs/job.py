@@ -26,7 +26,22 @@ EXIT_CODE, SHORTFALLS = "exit_code", "shortfalls"  # of the run, as attributes o
 
 @dataclass(frozen=True)
 class Finished:
-    """A run that has come to its end, and its result in a folder."""
+    """A run that has come to its end, and its result in a folder.
+
+    Attributes
+    ----------
+    dataset
+        Outputs over time, as in result.nc.
+    folder, written
+        Folder of the result, and the files in it that this run wrote.
+    reliable
+        Every row is valid, and no check has failed.
+    errors
+        Of a contact: errors of the outputs at the end, by their causes.
+    checks
+        Of a machine: results of its checks, by the names of their files.
+
+    """
 
     dataset: xr.Dataset
     folder: Path

@@ -27,10 +27,11 @@ def ask_before(folder: Path, origin: Mapping[str, Any], force: bool, listener: L
     old, new = _name(before), _name(origin)
     if old != new and not force:
         raise ContactError(
-            f"'{path}' is the result of '{old}', and this is '{new}'. Use another --out, or --force to replace it."
+            f"'{path}' is the result of '{old}', and this is '{new}'. Use another --out, or --force to replace it "
+            "(in Python: folder, force=True)."
         )
     what = f"'{path}', a result {_of(before, origin)}"
-    listener.note(f"{what}, will be replaced. To keep it, stop and use another --out.")
+    listener.note(f"{what}, will be replaced. To keep it, stop and use another --out (in Python: folder).")
 
 
 def _name(attributes: Mapping[str, Any]) -> str:

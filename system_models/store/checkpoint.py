@@ -50,7 +50,9 @@ def alone(folder: Path) -> Iterator[None]:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise StateError(f"Another run is at work in '{folder}'. Wait for it, or use another --out.") from None
+            raise StateError(
+                f"Another run is at work in '{folder}'. Wait for it, or use another --out (in Python: folder)."
+            ) from None
         except OSError:  # a file system without locks
             pass
         yield
@@ -221,7 +223,7 @@ class Checkpoint:
             raise StateError(
                 f"The checkpoint '{self.file}' belongs to another run: {'; '.join(different[:_NAMED])}{more}. "
                 "Give the settings it was made with or another --out, or start from the beginning without --resume, "
-                "which replaces it."
+                "which replaces it (in Python: folder, without resume=True)."
             )
         self._take(header, state)
 
@@ -251,7 +253,7 @@ class Checkpoint:
         return StateError(f"The checkpoint '{self.file}' cannot be used: {reason}. {_WAY_OUT}")
 
 
-_WAY_OUT = "Start from the beginning without --resume, which replaces it."
+_WAY_OUT = "Start from the beginning without --resume, which replaces it (in Python: without resume=True)."
 
 
 def _records(data: bytes) -> Iterator[bytes]:

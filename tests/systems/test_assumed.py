@@ -23,5 +23,5 @@ def test_a_run_prints_and_keeps_half_widths_by_what_is_assumed(tmp_path, monkeyp
         assert wear[1:] == approx(np.full(2, worth["wear_depth"].together), rel=0.02)
         assert result["h_c_assumed"].attrs["units"] == "m"
     assert f"({friction[0]:.2g})" in said
-    assert "Assumed, beside these errors: friction +- 0.031 (by boundary_friction.bare, surface_2.microrough" in said
+    assert "Assumed, beside these errors, of new surfaces: friction +- 0.031 (by boundary_friction.bare, surf" in said
     assert "in brackets the half width by what is assumed" in said

@@ -88,5 +88,14 @@ def test_the_example_of_the_regression_level_runs(capsys: pytest.CaptureFixture[
     assert 0.0 < error < 1.0
 
 
+def test_the_example_of_a_duty_and_of_stribeck_curves_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {}
+    exec(block("python", "from dataclasses import replace"), names)
+    load = names["done"].dataset["load"].values
+    assert load[-1] == 2.0 * load[0]
+    assert names["swept"]["friction_coefficient"].shape == (2, 5)
+
+
 def test_readme_is_short() -> None:
     assert len(README) < 6000

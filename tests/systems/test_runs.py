@@ -12,6 +12,17 @@ from system_models.runs import Listener, run_contact, run_machine
 
 QUICK = {"film.model": "regression", "operation.duration": "5 min"}
 
+MINE = """
+film.model = "regression"
+geometry.radius_x = "10 mm"
+solids.set = "steel"
+surface_1.finish = "polished"
+surface_2.finish = "ground"
+lubricant.viscosity = { viscosity_40 = "46 mm2/s", viscosity_100 = "6.8 mm2/s", density = "870 kg/m3" }
+operation = { load = "50 N", speed_1 = "1.1 m/s", speed_2 = "0.9 m/s", temperature = "60 degC", duration = "1 min", \
+file = "duty.csv" }
+"""
+
 
 class Kept(Listener):
     """Keeps what it hears."""
@@ -45,6 +56,17 @@ def test_a_contact_runs_in_one_call_as_by_the_command_and_prints_nothing(
     again = run_contact(Scene.from_toml("mtm_zddp", QUICK), tmp_path / "python", resume=True, listener=heard)
     xr.testing.assert_equal(again.dataset, done.dataset)
     assert any("This run is finished" in note and "resume=True" in note for note in heard.notes)
+
+
+def test_a_scene_by_its_file_is_read_as_by_the_command_with_what_it_assumes(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text(MINE, encoding="utf-8")
+    (tmp_path / "duty.csv").write_text("time [s],load [N]\n0,50\n30,400\n", encoding="utf-8")  # on a wider grid
+    done = run_contact(file, tmp_path / "python")
+    main(["run", str(file), "--out", str(tmp_path / "command")])
+    with xr.open_dataset(tmp_path / "command" / "result.nc") as result:
+        assert done.dataset.attrs["assumed_json"] == result.attrs["assumed_json"]
+        xr.testing.assert_equal(done.dataset, result)
 
 
 def test_the_result_of_another_scene_is_replaced_by_force_alone(tmp_path: Path) -> None:

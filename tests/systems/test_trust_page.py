@@ -70,7 +70,7 @@ def test_figures_of_a_measurement_stand_on_that_page_and_not_in_readme() -> None
             "speed_error",
             r"(_zddp, two hours \| regression \| - \| [\d.]+ \| - \| )[\d.]+",
             r"\g<1>46.8",
-            " to 46.8 (",
+            "| 46.8 (",
         ),
         ("surfaces/evolution", r"(\| mixed \| [^(]*)\(\d\.\d+\)", r"\g<1>(0.01)", "; mu 1 % |"),
         ("film/moving", r"(\| mtm_zddp \| 1 \| 257 \| )[\d.]+", r"\g<1>0.1", " % (W_c)"),

@@ -1,9 +1,11 @@
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 import pytest
 from comparison import approx
 
+from contact_core import Scene, SceneError, advance, initial_state
 from contact_core.laws.boundary_friction import FilmBlend
 from contact_core.laws.density import DowsonHigginson, Incompressible
 from contact_core.laws.plasticity import ElasticPerfectlyPlastic
@@ -362,3 +364,23 @@ def test_a_border_of_five_kelvin_survives_rounding(degrees):
 def test_extrapolation_changes_the_rate_by_six_percent_between_sixty_and_a_hundred_degrees():
     rates = np.array([FILM.rate(t) for t in (333.15, 373.15)]) / FILM.rate(353.15)
     assert rates == approx([0.943, 1.057], abs=1e-3)
+
+
+@dataclass(frozen=True)
+class PerPascal(Archard):
+    """A law whose coefficient has another unit than its rate asks for."""
+
+    name: ClassVar[str] = "per_pascal"
+
+    def rate(self, pressure, cover, speeds, body, hardness, full_thickness):
+        return super().rate(pressure, cover, speeds, body, 1.0, full_thickness)
+
+
+def test_a_law_that_is_put_into_a_scene_has_to_agree_with_itself_and_be_in_range():
+    scene = Scene.from_toml("mtm_zddp", {"film.model": "regression"})
+    state, op = initial_state(scene), scene.operation.point
+    off, beyond = (replace(scene, wear=law) for law in (PerPascal(1e-5, 1e-6), Archard(-5.0, 1e-6)))
+    with pytest.raises(SceneError, match=r"wear\.model = 'per_pascal' contradicts itself"):
+        advance(off, op, state, 1.0)
+    with pytest.raises(SceneError, match=r"wear\.bare = -5 \(.*\) must be at least 0"):
+        advance(beyond, op, state, 1.0)

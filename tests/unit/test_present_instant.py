@@ -8,7 +8,8 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import ContactState, OperatingPoint, Scene, advance, present_instant
+from contact_core import ContactState, OperatingPoint, Scene, advance
+from contact_core.deterministic.present import present_instant
 from contact_core.scene import Case
 
 

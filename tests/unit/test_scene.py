@@ -368,5 +368,6 @@ def test_a_former_model_of_the_film_is_read_as_a_correction_with_a_note(
     table["film"] = {key: value for key, value in table["film"].items() if key != "correction"} | {"model": former}
     given = Scene.from_dict(table)
     assert asked == given == Scene.from_toml("mtm_zddp").at_level(asked.film.fidelity)
+    assert asked == Scene.from_toml("mtm_zddp").at_level(correction)
     assert (asked.film.name, asked.to_dict()["film"]["correction"]) == ("regression", correction)
     assert caplog.text.count(f"film.model = '{former}' is film.model = 'regression' with film.correction") == 2

@@ -1,6 +1,6 @@
 """Asperities shorter than the grid: the pressure that they carry at a gap, and the gap at which they carry a pressure.
 
-    s(h) = stress exp(-(h - floor) / depth) for floor < h < floor + reach,   reach = FAINTEST depth
+    s(h) = stress exp(-(h - floor) / depth) for floor < h < floor + reach,   reach = REACH depth
 
 The total pressure is p = f + s(h). depth = 0: there are none, and solids touch at the floor. Units of `problem`.
 """

@@ -166,7 +166,10 @@ def face_means(gap, mass, conductance, width, across):  # type: ignore[no-untype
 
 @jit
 def gap_of_step(before, now, passing, out):  # type: ignore[no-untyped-def]
-    """Compute the gap whose conductance is the mean of a step in which a part of the gap's change passes by."""
+    """Compute the gap whose conductance is the mean of a step in which a part of the gap's change passes by.
+
+    passing: that part, the regression coefficient of what slides on the whole change where both are Gaussian.
+    """
     for j in range(now.shape[0]):
         for i in range(now.shape[1]):
             h_1 = now[j, i]

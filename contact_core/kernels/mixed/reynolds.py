@@ -6,9 +6,9 @@
 f is the fluid pressure, solved everywhere; entrainment is along +x, `wedge` its speed in the unit of speeds: 1, less
 where a time step is so short that squeezing rules, 0 at rest. What flows through the faces between nodes is said in
 `flow`: their mobilities ex and ey, and the mass `flux` that is carried along. On nodes in solid contact (solid[j, i])
-the gap is the floor and the total pressure p is at least f; elsewhere p = f, less what asperities below the grid carry
-(`asperities`). Viscosity and density come as tables over pressure (relative to those at p = 0). All arrays are [ny, nx]
-unless stated otherwise.
+the gap is the floor and the total pressure p is at least f; elsewhere f is p less what asperities below the grid carry
+(`asperities`). In a march the h of e is the mean gap of the step (`flow.gap_of_step`). Viscosity and density come as
+tables over pressure (relative to those at p = 0). All arrays are [ny, nx] unless stated otherwise.
 
 `filling`: from `cavities.carry`; masses are less than m where the film is not full. None: it is full everywhere. With
 it, `first` is the first column in which the oil has pressure.

@@ -11,7 +11,7 @@ from ...quantities import parameter
 from ...reference.constants import BOLTZMANN
 from ..elementary import Numbers, exp
 from ..equations import Equations
-from .doses import DOSES
+from .doses import DOSES, OF_TESTS
 from .fitted import Ghanbarzadeh, fit_temperature, supply_rate
 from .relaxation import formed, mean, rubbed, taken
 
@@ -50,7 +50,7 @@ class Arrhenius:
             "k = k_0 exp[(E_k/k_B) (1/T_0 − 1/T)],   C_4 = C_{4,0} exp[(E_C/k_B) (1/T_0 − 1/T)]",
         ),
         "t is the time for which the point has been rubbed; h_max and C_3 are linear in 1/T between the fits.",
-        options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
+        options={"dose": OF_TESTS},
         symbols={
             "h_{max}": "full thickness, between full_thickness_from and full_thickness_to [m]",
             "C_3": "largest removed thickness, between removal_thickness_from and removal_thickness_to [m]",

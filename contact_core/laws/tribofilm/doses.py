@@ -118,3 +118,12 @@ class Residence:
 
 
 DOSES: dict[str, Dose] = {dose.name: dose for dose in (Clock(), ContactLength(), Residence())}
+# of laws fitted to the time of tests, which have the field `contact_share`
+OF_TESTS: dict[str, Equations] = {
+    Residence.name: Equations(
+        ("t = t_s/c_s",),
+        Residence.equations.note,
+        symbols={"t_s": "time in solid contact [s]", "c_s": "contact_share"},
+    ),
+    **{dose.name: dose.equations for dose in (Clock(), ContactLength())},
+}

@@ -11,7 +11,7 @@ from ...quantities import parameter
 from ...reference.constants import BOLTZMANN, PLANCK
 from ..elementary import Numbers
 from ..equations import Equations
-from .doses import DOSES
+from .doses import DOSES, OF_TESTS
 from .relaxation import formed, mean, relaxed, rubbed, taken
 
 Array = NDArray[np.float64]
@@ -126,7 +126,7 @@ class Ghanbarzadeh(_Unabraded):
     equations: ClassVar[Equations] = Equations(
         ("h_t = h_{max} [1 − exp(−k t)] − C_3 [1 − exp(−C_4 t)],   k = x k_B T/h_P",),
         "t is the time for which the point has been rubbed; kB and hP are Boltzmann's and Planck's constants.",
-        options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
+        options={"dose": OF_TESTS},
         symbols={
             "h_{max}": "full_thickness",
             "C_3": "removal_thickness",
