@@ -36,6 +36,7 @@ from .advance import advance, uncertainty, warm_up
 from .assumed import Assumption, assumed
 from .calls.dry_contact import DryContact, dry_contact
 from .calls.line_contact import LineContact, line_contact
+from .calls.options import ContactOptions
 from .calls.point_contact import PointContact, point_contact
 from .calls.subsurface_stress import SubsurfaceStress, graded_depths, subsurface_stress
 from .deterministic.instant import ContactFields, Transient, solve
@@ -55,6 +56,7 @@ __all__ = [
     "Assumption",
     "ContactError",
     "ContactFields",
+    "ContactOptions",
     "ContactState",
     "ConvergenceError",
     "DryContact",
