@@ -249,22 +249,10 @@ class FittedSharing:
     )
     exposure_spread_smoother: float = parameter("", "V of the smoother body", above=0.0, most=0.99, default=0.801)
 
-    def load_ratio(
-        self,
-        clearance: Numbers,
-        layers: Numbers,
-        flattening: Numbers,
-        below: Numbers,
-        slip: Numbers,
-        pressed: Numbers,
-    ) -> Numbers:
-        """Return contact_load_ratio at Z = `clearance`, for a film of smooth bodies `layers` layers thick."""
-        return self.load_ratio_at(slip, self.parting(clearance, layers, flattening, below, pressed))
-
     def parting(
         self, clearance: Numbers, layers: Numbers, flattening: Numbers, below: Numbers, pressed: Numbers
-    ) -> "Parting":
-        """Return what parts the solids, at any slip; parameters as of `load_ratio`.
+    ) -> Parting:
+        """Return what parts the solids, at any slip.
 
         Oil between the asperities takes the load from what is below the grid; as Z grows, the asperities part.
         """
@@ -275,30 +263,22 @@ class FittedSharing:
         film = minimum(layers, _THICKEST) ** self.load_exponent * (flat**self.load_flattening * fine**self.load_below)
         return Parting(film, yielding, minimum(clearance, _THICKEST) ** 2)
 
-    def load_ratio_at(self, slip: Numbers, parting: "Parting") -> Numbers:
-        """Return contact_load_ratio at a slip."""
+    def load_ratio_at(self, slip: Numbers, parting: Parting) -> Numbers:
+        """Return W_c at a slip."""
         fastest = _FURTHER * self.FITTED["slip"][1]
         ease = (1.0 + minimum(slip, fastest)) ** self.load_slip * parting.yielding
         film, apart = minimum(parting.film * ease, _MOST), minimum(parting.apart, _MOST)
         return exp(-self.load_factor * film - self.load_parted * apart)
 
-    def area_ratio(self, load_ratio: Numbers, flattening: Numbers, below: Numbers) -> Numbers:
-        """Return contact_area_ratio where the solids carry `load_ratio` of the load."""
-        return self.dry_area(flattening, below) * load_ratio**self.area_exponent
-
     def dry_area(self, flattening: Numbers, below: Numbers) -> Numbers:
-        """Return contact_area_ratio where the solids carry all of the load."""
+        """Return A_c where the solids carry all of the load; elsewhere it is W_c^D times that."""
         return -expm1(-self.area_factor * flattening_together(flattening, below, _ALL_WAVES))
 
-    def film_ratio(self, dense: Numbers, load_ratio: Numbers, flattening: Numbers, layer: Numbers) -> Numbers:
-        """Return h_c / sigma at Z / rho = `dense` where the solids carry `load_ratio` of the load.
+    def films(self, dense: Numbers, flattening: Numbers, layer: Numbers) -> Films:
+        """Return h_c / sigma of solids that carry everything, and of oil that does, at Z / rho = `dense`.
 
         `layer` is Z / f, the height to which roughness below the grid reaches over sigma.
         """
-        return self.films(dense, flattening, layer).ratio(load_ratio)
-
-    def films(self, dense: Numbers, flattening: Numbers, layer: Numbers) -> "Films":
-        """Return h_c / sigma of solids that carry everything, and of oil that does; parameters as of `film_ratio`."""
         flat = (flattening / _FLATTENING) ** -0.75
         dry = self.film_dry * log1p(self.film_parted * (flat * flat)) / self.film_parted + self.film_layer * layer
         mixed = maximum(self.film_mixed * flat, dry)
