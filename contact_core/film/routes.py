@@ -345,7 +345,7 @@ class _Solver:
             "held": (solve_held, _HELD_ITERATIONS),
         }[method]
         limits = settings.tolerance, min(most, settings.iterations)
-        return scaled.without_images(solve(scaled.surfaces, self.problem, scaled.with_images(start), *limits))
+        return scaled.images.removed(solve(scaled.surfaces, self.problem, scaled.images.iterate(start), *limits))
 
     def _start(self, name: str) -> Iterate | None:
         scaled, state = self.scaled, self.state
