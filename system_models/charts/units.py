@@ -7,9 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from contact_core.quantities import CELSIUS
+
 from .half_widths import digits_of
 
-CELSIUS = 273.15  # K, of 0 degC
 _DEGREES = "°C"
 _PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"), (1e9, "G"))
 _PREFIXED = ("m", "Pa", "W", "N", "J", "N m")  # units that take a prefix

@@ -13,7 +13,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..charts.units import CELSIUS
+from contact_core.quantities import CELSIUS
+
 from ..run.cosim_report import recorded
 from .assembly import Schedule
 

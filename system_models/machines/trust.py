@@ -10,10 +10,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from contact_core.quantities import CELSIUS
 from contact_core.scene import Case, OperatingPoint
 from contact_core.state import RangeFlag
 
-from ..charts.units import CELSIUS
 from ..parts.part import start_values
 from ..run import flags, grown, verdict
 from ..run.trust import described, regime, span, wrapped

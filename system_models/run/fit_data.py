@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from contact_core import OperatingPoint, Scene
 from contact_core.errors import SceneError
-from contact_core.quantities import INPUTS, OUTPUTS, Quantity, measured_range
+from contact_core.quantities import CELSIUS, INPUTS, OUTPUTS, Quantity, measured_range
 
 from . import duty_table
 
@@ -146,4 +146,4 @@ def _input(name: str, value: float | None) -> str:
     if value is None:
         return f"{name} of the scene"
     q: Quantity = next(q for q in INPUTS if q.name == name)
-    return f"{value - 273.15:.4g} °C" if q.display == "degC" else f"{name} {value:.4g} {q.unit}"
+    return f"{value - CELSIUS:.4g} °C" if q.display == "degC" else f"{name} {value:.4g} {q.unit}"

@@ -4,6 +4,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from contact_core.quantities import CELSIUS
 from contact_core.state import RangeFlag
 
 from ..charts.chart import GREY, NOTHING, Chart, Line, Sheet, shades
@@ -127,7 +128,7 @@ def _curves(dataset: xr.Dataset, panel: tuple[str, str, str, tuple[float, ...]],
 
 def _title(dataset: xr.Dataset) -> str:
     return (
-        f"{dataset.attrs['scene']}: {float(dataset['load']):.4g} N, {float(dataset['temperature']) - 273.15:.4g} °C, "
+        f"{dataset.attrs['scene']}: {float(dataset['load']):.4g} N, {float(dataset['temperature']) - CELSIUS:.4g} °C, "
         f"slide-to-roll ratio {100.0 * float(dataset['slide_roll_ratio']):.3g} %, "
         f"level {dataset.attrs['film']}"
     )

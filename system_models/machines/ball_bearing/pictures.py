@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from contact_core.quantities import CELSIUS
+
 from ...charts.chart import BLACK, BLUE, GREEN, GREY, NOTHING, ORANGE, PURPLE, RED, SKY, Chart, Line, Sheet, shades
-from ...charts.units import CELSIUS, time_unit
+from ...charts.units import time_unit
 from ...run.panels import FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR
 from ..assembly import Assembly
 from .geometry import RACES, RaceName

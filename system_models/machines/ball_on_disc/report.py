@@ -9,9 +9,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from contact_core.quantities import CELSIUS
+
 from ...charts.chart import BLACK, BLUE, GREEN, GREY, RED, Chart, Line, Sheet, shades, spans_of
 from ...charts.half_widths import Column
-from ...charts.units import CELSIUS, Unit, time_unit
+from ...charts.units import Unit, time_unit
 from ...run.cosim_report import aligned
 from ...run.panels import FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR, chart
 from ...store.results import half_width

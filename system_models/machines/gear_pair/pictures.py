@@ -6,9 +6,11 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
+from contact_core.quantities import CELSIUS
+
 from ...charts.chart import BLACK, BLUE, COLOURS, NOTHING, RED, Chart, Line, Sheet, shades
 from ...charts.scale import scale_of
-from ...charts.units import CELSIUS, time_unit
+from ...charts.units import time_unit
 from ...run.panels import FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR
 from ..assembly import Assembly
 from .path import Array, named_points
