@@ -6,8 +6,7 @@ from typing import Any, Literal, TypedDict, TypeVar, get_args, get_origin
 
 from numpy.typing import ArrayLike
 
-from ..errors import OperatingPointError
-from ..scene.toml import did_you_mean
+from ..errors import OperatingPointError, did_you_mean
 
 Call = TypeVar("Call", bound=Callable[..., Any])
 

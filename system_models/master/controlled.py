@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_core.scene.toml import did_you_mean
+from contact_core.errors import did_you_mean
 
 from ..fmu.errors import CouplingError, NotFiniteError
 from ..numerics.control import StepControl, wrms

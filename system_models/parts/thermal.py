@@ -11,9 +11,8 @@ import numpy as np
 import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
 
-from contact_core.errors import SceneError
+from contact_core.errors import SceneError, did_you_mean
 from contact_core.quantities import parameter
-from contact_core.scene.toml import did_you_mean
 
 from .conduction import Modes
 from .part import Input, Output, Part, State, Values, indexed

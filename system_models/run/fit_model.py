@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_core import OperatingPoint, Scene, advance, initial_state, uncertainty
-from contact_core.errors import ContactError, SceneError
+from contact_core.errors import ContactError, SceneError, did_you_mean
 from contact_core.scene import units
-from contact_core.scene.toml import did_you_mean
 from contact_core.scene.tunables import tunables, with_values
 
 Array = NDArray[np.float64]
