@@ -8,11 +8,11 @@ from operator import index
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..film import Convergence
 from ..film.grid_steps import GridStep
 from ..film.instant import FilmSolution, Grid, Instant, Settings
+from ..kernels.arrays import Array
 from ..laws.density import DowsonHigginson, Incompressible
 from ..laws.viscosity import Barus, Roelands
 from ..quantities import TABLE, out_of_range, parameter
@@ -22,8 +22,6 @@ from ..shapes import Shape
 from .inlet import extent_before, with_inlet
 from .options import refuse
 from .refinement import FINEST, Surface, grids_within, surface_of, wants_accuracy
-
-Array = NDArray[np.float64]
 
 UNLIMITED = 1e12  # Pa
 _REFERENCE = 300.0  # K: any; temperatures are constant here

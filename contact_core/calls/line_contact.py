@@ -4,18 +4,16 @@ from dataclasses import dataclass, fields
 from typing import Unpack
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..film.fitted import line_extent, rows_over
 from ..film.instant import Grid
+from ..kernels.arrays import Array
 from ..laws.profile import Logarithmic, Measured, Rounded
 from ..quantities import out_of_range, parameter
 from ..shapes import Line, Profile, Roller
 from .common import FilmCall, FilmContact, Numbers, grid_nodes, heights_of, no_numbers, nodes_of, numbers_of, solved
 from .options import ContactOptions, check_choices, options_of, refuse, shows_options
 from .refinement import MOST_NODES, intervals
-
-Array = NDArray[np.float64]
 
 _NODES = 257  # along x of smooth bodies
 _MOST = 8193  # nodes along an axis

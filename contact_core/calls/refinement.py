@@ -4,12 +4,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import OperatingPointError
 from ..film.instant import Grid
-
-Array = NDArray[np.float64]
+from ..kernels.arrays import Array
 
 COARSEST, FINEST = 32, 512  # intervals along the shorter side
 MOST_NODES = 600_000

@@ -9,10 +9,10 @@ solved again: what is left of the error is stated, and `RangeFlag.UNSURE` raised
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import deterministic, regression
 from ..errors import ContactError
+from ..kernels.arrays import Array
 from ..regression.contact import MeanContact, Stated, evaluate
 from ..regression.outputs import half_widths
 from ..regression.surfaces import Tribofilms
@@ -126,7 +126,7 @@ def _block(case: Case, state: ContactState, corrector: _Corrector) -> tuple[Solv
         found = None
     solved = vars(found) if found is not None and not RangeFlag(found.range_flags) & _UNSURE else None
     knot = knots([""], [corrector.place], [corrector.raw], [solved])
-    row: NDArray[np.float64] = np.concatenate([knot.places, knot.off, knot.own], axis=1)
+    row: Array = np.concatenate([knot.places, knot.off, knot.own], axis=1)
     names = ("blocks_dry", "blocks_mixed", "blocks_fallback")
     counted = {name: getattr(found, name) for name in names} if found is not None else {}
     return Solved(np.vstack([corrector.rows, row])), counted

@@ -21,9 +21,8 @@ import numpy as np
 import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
 
+from ..kernels.arrays import Array
 from ..scene import Scene
-
-Array = NDArray[np.float64]
 
 CORRECTED = {  # output, and the output that states its error
     "friction_coefficient": "error_friction",

@@ -3,11 +3,11 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import SceneError
 from ..film import Convergence, Deterministic
 from ..film.instant import FilmSolution, FilmState, Grid, Instant, Step
+from ..kernels.arrays import Array
 from ..kernels.surface_give import SurfaceGive
 from ..laws.temperatures import Temperatures
 from ..scene import Case, OperatingPoint, Scene
@@ -15,8 +15,6 @@ from ..state import ContactState
 from ..surfaces.patches import FacingSurfaces, added_friction, facing_surfaces
 from .friction import Film, Friction, friction
 from .oil_temperature import left_behind, sheared, solve_flow, warmed
-
-Array = NDArray[np.float64]
 
 AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
 

@@ -10,17 +10,15 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..film.instant import FilmSolution, FilmState, Grid, Instant
 from ..film.thinning import eased, recalled, remembering, solve_thinning
+from ..kernels.arrays import Array
 from ..laws.heat import NoHeat
 from ..laws.temperatures import Rubbing, Temperatures
 from ..reference import FILM_OF_VISCOSITY, inlet_shear_factor
 from ..scene import Case
 from .friction import Film, Shear, shear, sliding
-
-Array = NDArray[np.float64]
 
 _ROUNDS = 30  # of shear and temperature of a steady film, at most
 _UNDER_RELAXATION = 0.7  # of a change of temperature

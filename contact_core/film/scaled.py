@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
+from ..kernels.arrays import Array, Mask
 from ..kernels.far_field import far_field
 from ..kernels.giving_half_space import giving
 from ..kernels.half_space import HalfSpace
@@ -19,8 +20,6 @@ from .instant import FilmState, Grid, Instant, Settings, Step
 from .lengths import FAR_FIELD_BELOW, film_size, inlet_length
 from .shared import ENTRIES, half_space, tables
 from .slow_film import SlowFilm
-
-Array = NDArray[np.float64]
 
 _TABLE_TOP = 2e10  # Pa: no oil flows above
 _LEAST_EASE = 1e-6  # below it, oil does not flow
@@ -248,7 +247,7 @@ class Scaled:
             depth=self.fade,
         )
 
-    def _empty(self, start: FilmState) -> NDArray[np.bool_]:
+    def _empty(self, start: FilmState) -> Mask:
         """Return the nodes whose oil had no pressure before; a flooded edge and all before a meniscus are full."""
         empty = start.fluid <= 0.0
         empty[:, : max(self.first, 1)] = self.now.supply is not None

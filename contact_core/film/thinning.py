@@ -27,8 +27,9 @@ from typing import Any
 
 import numpy as np
 
+from ..kernels.arrays import Array
 from ..laws.base import Rheology
-from .instant import Array, FilmSolution, FilmState, Instant
+from .instant import FilmSolution, FilmState, Instant
 
 _STIFFEST = 1e30  # Pa: no stress of a Newtonian oil above matters
 _LEAST = (1e-4, 1e-3)  # pressed stress: share of the sheared one, and Pa. Below, the oil yields as at a vanishing one

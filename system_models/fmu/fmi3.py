@@ -11,7 +11,8 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave, fmi3Discard
 from fmpy.model_description import ModelVariable
-from numpy.typing import NDArray
+
+from contact_core.kernels.arrays import Array
 
 from ..numerics import hold
 from . import messages
@@ -141,7 +142,7 @@ class Fmi3Instance(Instance):
             except FMICallException as error:  # nothing may be raised through the FMU
                 self._refused_input = error
 
-    def _hold(self, polynomial: NDArray[np.float64], size: float) -> None:
+    def _hold(self, polynomial: Array, size: float) -> None:
         super()._hold(polynomial, size)
         self._polynomial = polynomial
 

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from contact_core import OperatingPoint
 from contact_core.corrections.kriging import (
@@ -23,14 +22,13 @@ from contact_core.corrections.kriging import (
     pair_of,
     place,
 )
+from contact_core.kernels.arrays import Array
 from contact_core.quantities import LEVELS, TABLE
 from contact_core.scene import Case, Scene
 
 from .assembly import Assembly
 from .report import loss_error, lost
 from .resolve import COMPARED, FAST, Resolved, started
-
-Array = NDArray[np.float64]
 
 
 def knots_of(states: Sequence[Resolved]) -> Knots:

@@ -10,6 +10,8 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 from numpy.typing import NDArray
 
+from contact_core.kernels.arrays import Array
+
 from ..fmu.errors import CouplingError, NotFiniteError
 from ..fmu.instance import Instance
 from ..numerics import hold
@@ -24,8 +26,6 @@ from .running import Running
 from .sequence import Block, blocks, feedthrough_order
 from .settings import Settings
 from .system import Port, System
-
-Array = NDArray[np.float64]
 
 _SAME_TIME = 1e-12  # relative to the step: a step that ends this close to its end has got there
 _MOST_ITERATIONS = 50

@@ -2,8 +2,8 @@
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from contact_core.kernels.arrays import Mask
 from contact_core.quantities import CELSIUS
 from contact_core.state import RangeFlag
 
@@ -108,7 +108,7 @@ def sheet(dataset: xr.Dataset) -> Sheet:
     return Sheet([_curves(dataset, panel, unsure) for panel in _PANELS], _title(dataset), height=3.3)
 
 
-def _curves(dataset: xr.Dataset, panel: tuple[str, str, str, tuple[float, ...]], unsure: NDArray[np.bool_]) -> Chart:
+def _curves(dataset: xr.Dataset, panel: tuple[str, str, str, tuple[float, ...]], unsure: Mask) -> Chart:
     name, title, symbol, levels = panel
     first = panel is _PANELS[0]  # that has the key
     values, half = dataset[name].values, dataset.coords.get(f"{name}{ERROR}")

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_core import ConvergenceError, point_contact
+from contact_core.kernels.arrays import Array
 from contact_core.laws.viscosity import AstmD341
 from contact_core.quantities import CELSIUS
 
-from .model import Array, Comparison, Kind, Outcome, Row, compared, exactly
+from .model import Comparison, Kind, Outcome, Row, compared, exactly
 from .tables import read
 
 BALL, MODULUS = 9.525e-3, 2.0 / ((1.0 - 0.3**2) / 207e9 + (1.0 - 0.22**2) / 75e9)  # m; Pa, steel on glass

@@ -14,11 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
 import contact_core.kernels  # noqa: F401  # decides where compiled kernels are kept
-
-Array = NDArray[np.float64]
+from contact_core.kernels.arrays import Array
 
 _jit = njit(cache=True, nogil=True, error_model="numpy")
 

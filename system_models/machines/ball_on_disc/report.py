@@ -7,8 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from contact_core.kernels.arrays import Mask
 from contact_core.quantities import CELSIUS
 
 from ...charts.chart import BLACK, BLUE, GREEN, GREY, RED, Chart, Line, Sheet, shades, spans_of
@@ -122,7 +122,7 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     return [*_table(dataset, found), "", *(_curves(dataset, found) if found else ()), *_energy(assembly, dataset)]
 
 
-def _rubbing(dataset: xr.Dataset, found: list[Sweep]) -> NDArray[np.bool_]:
+def _rubbing(dataset: xr.Dataset, found: list[Sweep]) -> Mask:
     """Return True for rows that are in no sweep."""
     times = dataset["time"].values
     within = [(sweep.holds[0].start < times) & (times <= sweep.holds[-1].end) for sweep in found]

@@ -3,9 +3,10 @@
 import numpy as np
 import xarray as xr
 
+from contact_core.kernels.arrays import Array
 from contact_core.quantities import CELSIUS
 
-from ...charts.chart import BLACK, Array, Chart, Line, Sheet
+from ...charts.chart import BLACK, Chart, Line, Sheet
 from ...charts.units import time_unit
 from ...run.panels import FILM, FRICTION, LAMBDA, TRIBOFILM, WEAR
 from ..assembly import Assembly

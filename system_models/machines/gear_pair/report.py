@@ -5,12 +5,12 @@ from dataclasses import asdict
 import numpy as np
 import xarray as xr
 
+from contact_core.kernels.arrays import Array
 from contact_core.quantities import CELSIUS
 
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
 from ..report import heat_stored
-from .path import Array
 from .rating import Rating
 from .record import Record, Stage
 from .safety import Safeties
