@@ -1,6 +1,7 @@
 """Load shared between solids and oil of rough bodies: curves fitted to deterministic solutions."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
 from math import inf
 from typing import ClassVar, NamedTuple
 
@@ -360,7 +361,26 @@ class FittedSharing:
         return larger * ((first / larger) ** power + later) ** (1.0 / power)
 
 
+def _refitted(**values: float) -> Callable[[type], type]:
+    """Return a decorator that gives the constants of a class's base other values."""
+
+    def refitted(cls: type) -> type:
+        for f in fields(cls.__base__):  # type: ignore[arg-type]
+            if f.name in values:
+                cls.__annotations__[f.name] = f.type
+                setattr(cls, f.name, field(default=values[f.name], metadata=f.metadata))
+        return cls
+
+    return refitted
+
+
 @dataclass(frozen=True)
+@_refitted(
+    load_factor=0.134, load_exponent=1.45, load_flattening=1.42, load_below=0.0, load_slip=1.43, load_yield=0.796,
+    load_parted=0.704, area_factor=2.34, area_exponent=0.853, film_dry=0.902, film_parted=2.67, film_layer=1.06,
+    film_mixed=0.391, film_factor=0.919, film_exponent=1.4, oil_pressure_excess=3.45, oil_pressure_decay=0.56,
+    oil_pressure_power=0.0, oil_steepness=1.71, oil_kept=0.884, oil_spread=1.12,
+)  # fmt: skip
 class LineSharing(FittedSharing):
     """The law of `FittedSharing` with the constants of lines and rollers, fitted to the roughness of gear flanks."""
 
@@ -397,42 +417,6 @@ class LineSharing(FittedSharing):
         "exposure_rougher": FittedSharing.exposure_rougher,  # all of it: it is that of circles
     }
     WIDTHS: ClassVar[Widths] = Widths(0.47, 0.08, 0.21, 0.2, 0.16, 0.31, 0.36, 0.5)
-
-    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.134)
-    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.45)
-    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=1.42)
-    load_below: float = parameter("", "l, power of s_m", least=0.0, most=10.0, default=0.0)
-    load_slip: float = parameter("", "v, power of the sliding", least=0.0, most=5.0, default=1.43)
-    load_yield: float = parameter("", "y, power of what yields", least=0.0, most=5.0, default=0.796)
-    load_parted: float = parameter("", "b, of asperities that part", least=0.0, most=1e3, default=0.704)
-    area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.34)
-    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.853)
-    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.902)
-    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=2.67)
-    film_layer: float = parameter(
-        "", "H, part of the height of roughness below the grid that dry bodies keep", least=0.0, most=10.0, default=1.06
-    )
-    film_mixed: float = parameter(
-        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.391
-    )
-    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.919)
-    film_exponent: float = parameter("", "n", least=0.1, most=20.0, default=1.4)
-    oil_pressure_excess: float = parameter(
-        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=3.45
-    )
-    oil_pressure_decay: float = parameter(
-        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=0.56
-    )
-    oil_pressure_power: float = parameter("", "q, the more so of rougher bodies", least=0.0, most=5.0, default=0.0)
-    oil_steepness: float = parameter(
-        "", "w, how much more steep roughness raises it", least=0.0, most=5.0, default=1.71
-    )
-    oil_kept: float = parameter(
-        "", "c, friction of oil whose pressure is uneven, over that of even one", above=0.0, most=1.0, default=0.884
-    )
-    oil_spread: float = parameter(
-        "", "S, how far thick films spread the load beyond Hertz's contact", least=0.0, most=100.0, default=1.12
-    )
 
 
 LAWS: tuple[type[FittedSharing], ...] = (FittedSharing, LineSharing)
