@@ -118,17 +118,12 @@ def left_out(samples: Samples, rule: Rule) -> tuple[Array, Array]:
         out = part_of == part
         fit = _Fit.of(samples.some(~out), rule)
         rest = samples.some(out)
-        off[out] = rest.off - _bounded(fit.at(rest.places, rest.fine), rest.shares)
+        off[out] = rest.off - bounded(fit.at(rest.places, rest.fine), rest.shares)
         wide[out] = fit.spread(rest.places, rest.fine)
     return off, wide
 
 
-def predicted(chart: Map, samples: Samples) -> Array:
-    """Return the deviations that a map has for contacts within its ranges, as in `Samples.off`."""
-    return _bounded(design(chart, samples.places) @ np.array(chart.weights).T, samples.shares)
-
-
-def _bounded(told: Array, shares: Array) -> Array:
+def bounded(told: Array, shares: Array) -> Array:
     """Return deviations as in `Samples.off` from polynomials, [contacts, outputs]."""
     told = np.clip(told, -STEEPEST, STEEPEST)
     odds = np.exp(told[:, 2])

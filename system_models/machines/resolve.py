@@ -15,7 +15,8 @@ import numpy as np
 import xarray as xr
 
 from contact_core import ContactError, ContactState, OperatingPoint, Outputs, RangeFlag, advance, initial_state
-from contact_core.corrections.kriging import Place, pair_of, place
+from contact_core.corrections.kriging import pair_of, place
+from contact_core.corrections.places import Place
 from contact_core.kernels.arrays import Array, Mask
 from contact_core.quantities import LEVELS
 from contact_core.scene import Case, Scene, tunables, with_values

@@ -16,9 +16,9 @@ from typing import Any
 
 import numpy as np
 
+from contact_core.corrections.correction import CORRECTED
 from contact_core.corrections.fitting import Rule, Samples, TooFewError, fitted, widths_at
 from contact_core.corrections.knot import History, coarser, contact_of, samples_of, solve
-from contact_core.corrections.kriging import CORRECTED
 from contact_core.corrections.map import Map, digest_of
 from contact_core.corrections.query import here, told
 from contact_core.errors import ContactError
