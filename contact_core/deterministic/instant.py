@@ -109,8 +109,7 @@ def solve_instant(
 ) -> ContactFields:
     """Solve a case at one instant; as `solve`, for an operating point that has been checked."""
     scene = case.scene
-    level, full = scene.film, scene.tribofilm.full_thickness
-    assert isinstance(level, Deterministic)
+    full = scene.tribofilm.full_thickness
     faced = facing_surfaces(scene, state, moving=transient is not None)
     grid = scene.grid(state.rows).shifted(state.window)
     film_1, film_2 = faced.tribofilms
@@ -127,16 +126,7 @@ def solve_instant(
             how = transient.moved, transient.order, transient.thorough
             step = Step(transient.dt, *how, transient.shifted, transient.rolled)
         most = transient.iterations if transient else None
-        film = solve_flow(
-            case,
-            grid,
-            cover,
-            now,
-            before,
-            lambda now, start: level.solve(now, grid, start, step, most),
-            level.tolerance,
-            oxide,
-        )
+        film = solve_flow(case, grid, cover, now, before, step, most, oxide)
     rubbed = sheared(grid, film, cover, case.op.inlet_temperature, oxide)
     found, stress, warm, shortfall = warmed(case, rubbed, before, heated=not transient or transient.heated)
     convergence = film.convergence | {
