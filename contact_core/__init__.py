@@ -28,16 +28,17 @@ and a correction may move the estimate. Where to find what:
     errors           what can go wrong, each message with a way out
     data/            named oils, solids and tribofilms, and the shipped scenes
 
-Imports run one way: errors, progress, quantities, reference <- entry_points, kernels <- laws <- shapes <- film <-
+Imports run one way: errors, progress, quantities <- kernels <- entry_points, reference <- laws <- shapes <- film <-
 scene <- state, calls <- surfaces <- deterministic, regression <- corrections <- advance, assumed. The two levels do not
-import each other. Everything inside is SI; heights are metres above a body's mean
-plane, positive toward the other body; arrays are [ny, nx], x along entrainment.
+import each other. Everything inside is SI; heights are metres above a body's mean plane, positive toward the other
+body; arrays are [ny, nx], x along entrainment.
 """
 
 from .advance import advance, uncertainty, warm_up
 from .assumed import Assumption, assumed
 from .calls.dry_contact import DryContact, dry_contact
 from .calls.line_contact import LineContact, line_contact
+from .calls.options import ContactOptions
 from .calls.point_contact import PointContact, point_contact
 from .calls.subsurface_stress import SubsurfaceStress, graded_depths, subsurface_stress
 from .deterministic.instant import ContactFields, Transient, solve
@@ -56,6 +57,7 @@ __all__ = [
     "Assumption",
     "ContactError",
     "ContactFields",
+    "ContactOptions",
     "ContactState",
     "ConvergenceError",
     "DryContact",

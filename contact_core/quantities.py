@@ -9,6 +9,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import Field, dataclass, field, fields, is_dataclass, replace
 from typing import Any, Literal
 
+CELSIUS = 273.15  # K, of 0 degC
+
 Role = Literal["input", "output", "diagnostic"]
 Kind = Literal["Real", "Integer", "Boolean"]
 # level: each instant has it (`deterministic.observed`), and the output is its smoothed mean over blocks; slope: the

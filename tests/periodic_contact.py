@@ -16,8 +16,9 @@ import scipy
 from scipy.optimize import brentq
 
 from contact_core.errors import ConvergenceError
+from contact_core.kernels.arrays import Array
 from contact_core.kernels.dry_faces import Contact
-from contact_core.kernels.half_space import Array, Convolution
+from contact_core.kernels.half_space import Convolution
 
 TOLERANCE = 1e-4  # of a pressure, sum |p - exact p| / load
 ITERATIONS = 3000

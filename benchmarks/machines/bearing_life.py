@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 
 from benchmarks.pages import Page
 from contact_core import ContactState, OperatingPoint, Scene, advance, initial_state, march, solve
+from contact_core.kernels.arrays import Array
 from contact_core.kernels.stress_measures import von_mises
 from contact_core.kernels.subsurface import Subsurface
 from contact_core.scene import Case
@@ -26,7 +27,7 @@ from system_models.machines.ball_bearing.equilibrium import RingLoads
 from system_models.machines.ball_bearing.equilibrium import solve as balance
 from system_models.machines.ball_bearing.geometry import BEARING_209, RACES, BallBearingGeometry
 from system_models.machines.ball_bearing.lives import RatedRun
-from system_models.machines.ball_bearing.record import Array, BearingRun
+from system_models.machines.ball_bearing.record import BearingRun
 from system_models.machines.resolve import started
 from system_models.master import simulate
 

@@ -15,10 +15,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from benchmarks.pages import Page
+from contact_core.kernels.arrays import Array
 from system_models.machines import reading
 from system_models.machines.gear_pair.geometry import FZG_STAGES
 from system_models.machines.gear_pair.mesh import flank
-from system_models.machines.gear_pair.path import Array
 from system_models.machines.gear_pair.record import Record, Stage
 from system_models.machines.gear_pair.textbook import michaelis, ohlendorf
 from system_models.machines.resolve import Resolved, solved_again

@@ -13,9 +13,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from benchmarks.pages import Page
+from contact_core.kernels.arrays import Array
 from system_models.machines import reading
 from system_models.machines.gear_pair.micropitting import TEST_RA, gf_class, mean_friction
-from system_models.machines.gear_pair.path import Array
 from system_models.machines.gear_pair.rating import Rating
 from system_models.machines.gear_pair.record import RA_OF_RQ, Record
 from system_models.machines.gear_pair.safety import Safeties

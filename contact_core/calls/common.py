@@ -1,28 +1,27 @@
 """Common parts of the calls that solve one film: checks of arguments, solution, result."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from operator import index
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from ..errors import OperatingPointError
 from ..film import Convergence
 from ..film.grid_steps import GridStep
 from ..film.instant import FilmSolution, Grid, Instant, Settings
+from ..kernels.arrays import Array
 from ..laws.density import DowsonHigginson, Incompressible
 from ..laws.viscosity import Barus, Roelands
 from ..quantities import TABLE, out_of_range, parameter
 from ..reference import SmoothContact, SmoothLine
 from ..reference.starvation import supplied_film
-from ..scene.toml import did_you_mean
 from ..shapes import Shape
-from .inlet import with_inlet
-from .refinement import Surface
-
-Array = NDArray[np.float64]
+from .inlet import extent_before, with_inlet
+from .options import refuse
+from .refinement import FINEST, Surface, grids_within, surface_of, wants_accuracy
 
 UNLIMITED = 1e12  # Pa
 _REFERENCE = 300.0  # K: any; temperatures are constant here
@@ -30,14 +29,6 @@ _SLOWEST = 1e-30  # m/s
 _THICKEST = 0.01  # film over the smaller radius
 _VISCOSITY = {law.name: law for law in (Roelands, Barus)}
 _DENSITY = {law.name: law for law in (DowsonHigginson, Incompressible)}
-_CHOICES = {
-    "viscosity_law": tuple(_VISCOSITY),
-    "density_law": tuple(_DENSITY),
-    "criterion": ("split", "lumped"),
-    "cavitation": ("reynolds", "mass_conserving"),
-    "flux": ("fitted", "upwind"),
-    "fft": ("pyfftw", "scipy"),
-}
 
 
 @dataclass(frozen=True)
@@ -97,8 +88,9 @@ Given = TypeVar("Given", bound=Numbers)
 
 
 def numbers_of(cls: type[Given], given: Mapping[str, Any]) -> Given:
-    """Return the checked numbers of a call; those that are None keep their defaults."""
-    values = {name: value for name, value in given.items() if value is not None}
+    """Return the checked numbers among the arguments of a call; those that are None keep their defaults."""
+    names = {f.name for f in fields(cls)}
+    values = {name: value for name, value in given.items() if name in names and value is not None}
     refuse(no_numbers(values))
     whole = {name: int(value) if name == "iterations" else float(value) for name, value in values.items()}
     numbers = cls(**whole)  # type: ignore[arg-type]
@@ -106,141 +98,134 @@ def numbers_of(cls: type[Given], given: Mapping[str, Any]) -> Given:
     return numbers
 
 
-def check_choices(given: Mapping[str, Any]) -> None:
-    """Raise OperatingPointError for a value that is not among the choices of its argument."""
-    refuse(
-        [
-            f"{name} = {value!r} is not one of {', '.join(_CHOICES[name])}."
-            + did_you_mean(str(value), list(_CHOICES[name]))
-            for name, value in given.items()
-            if value not in _CHOICES[name]
-        ]
-    )
+@dataclass(frozen=True)
+class FilmCall(ABC):
+    """A contact that a call asks for."""
 
+    shape: Shape
+    load: float  # [N] of the whole shape
+    numbers: Numbers
+    options: Mapping[str, Any]  # all of `ContactOptions`, and the criterion
+    domain: tuple[float, ...] | None
+    heights: Array | None  # of both bodies together
 
-def refuse(sentences: list[str]) -> None:
-    """Raise OperatingPointError with the sentences, if there are any."""
-    if sentences:
-        raise OperatingPointError(" ".join(sentences))
+    @abstractmethod
+    def nodes(self, grid: int | tuple[int, int] | None) -> Grid:
+        """Return the nodes that the arguments ask for."""
 
+    @abstractmethod
+    def grids(self) -> list[Grid]:
+        """Return grids for smooth bodies, from coarse to fine."""
 
-def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -> float:
-    """Return the film [m] of smooth bodies by formula, behind an oil layer [m] or flooded; 0 at rest.
+    @cached_property
+    def film(self) -> float:
+        """Film [m] of smooth bodies by formula, behind an oil layer [m] or flooded; 0 at rest.
 
-    Raises OperatingPointError if it is too thick for the bodies' shape.
-    """
-    if numbers.entrainment_speed == 0.0:
-        return 0.0
-    film = smooth_of(shape, load, numbers).film
-    if supply is not None:
-        film = supplied_film(film, supply, resistance=shape.side_resistance)
-    radius, least = min((value, name) for name, value in shape.radii)
-    if len(shape.radii) == 1:
-        least = "radius"  # as the call of a line names it
-    if film > _THICKEST * radius:
-        refuse(
-            [
-                f"The oil film would be about {film:.2g} m, over {_THICKEST:g} of {least} = {radius:g} m: "
-                "the parabolic shape does not hold on its scale. Raise load, or lower speed_1, speed_2 or viscosity."
-            ]
+        Raises OperatingPointError if it is too thick for the bodies' shape.
+        """
+        if self.numbers.entrainment_speed == 0.0:
+            return 0.0
+        shape, film, supply = self.shape, self.smooth.film, self.options["supply"]
+        if supply is not None:
+            film = supplied_film(film, supply, resistance=shape.side_resistance)
+        radius, least = min((value, name) for name, value in shape.radii)
+        if len(shape.radii) == 1:
+            least = "radius"  # as the call of a line names it
+        if film > _THICKEST * radius:
+            refuse(
+                [
+                    f"The oil film would be about {film:.2g} m, over {_THICKEST:g} of {least} = {radius:g} m: the "
+                    "parabolic shape does not hold on its scale. Raise load, or lower speed_1, speed_2 or viscosity."
+                ]
+            )
+        return film
+
+    @cached_property
+    def smooth(self) -> SmoothContact | SmoothLine:
+        """The flooded contact of the smooth bodies in the terms of film formulas."""
+        numbers = self.numbers
+        oil = Barus(numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0), _REFERENCE
+        smooth = self.shape.smooth(self.load, abs(numbers.entrainment_speed), *oil, numbers.reduced_modulus)
+        return replace(smooth, pressure_coefficient=max(numbers.pressure_viscosity, 1e-12))
+
+    def before(self) -> float:
+        """Return the extent [m] before the centre that the accuracy needs; 0 without a film."""
+        a = self.shape.hertz(self.load, self.numbers.reduced_modulus).a
+        return extent_before(self.numbers.accuracy, a, self.shape, self.smooth) if self.film > 0.0 else 0.0
+
+    def instant(self, nodes: Grid, heights: Array | None) -> Instant:
+        """Return what is to be solved on the nodes of a grid, with heights on them."""
+        numbers, options = self.numbers, self.options
+        supply, meniscus, conserving = (options[name] for name in ("supply", "meniscus", "cavitation"))
+        hertz = self.shape.hertz(self.load, numbers.reduced_modulus)
+        if meniscus is not None and meniscus <= hertz.a:
+            refuse(
+                [
+                    f"meniscus = {meniscus:g} m must be more than the half width of Hertz's contact, {hertz.a:.3g} m: "
+                    "no oil would be before it."
+                ]
+            )
+        if supply is not None and conserving != "mass_conserving":
+            refuse([f"supply = {supply:g} m needs cavitation = 'mass_conserving'; otherwise every gap counts as full."])
+        oil = numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0
+        return Instant(
+            load=self.load,
+            entrainment_speed=numbers.entrainment_speed,
+            temperature=_REFERENCE,
+            shape=self.shape,
+            reduced_modulus=numbers.reduced_modulus,
+            viscosity=_VISCOSITY[options["viscosity_law"]](*oil),
+            density=_DENSITY[options["density_law"]](),
+            heights=np.zeros(nodes.shape) if heights is None else heights,
+            limit=np.full(nodes.shape, numbers.hardness),
+            hardness=numbers.hardness,
+            conserving=conserving == "mass_conserving",
+            supply=supply,
+            meniscus=meniscus,
         )
-    return film
+
+    @property
+    def settings(self) -> Settings:
+        """How it is solved."""
+        numbers, options = self.numbers, self.options
+        lumped, fitted = options["criterion"] == "lumped", options["flux"] == "fitted"
+        return Settings(numbers.floor, numbers.tolerance, numbers.iterations, options["fft"], lumped, fitted)
 
 
-def smooth_of(shape: Shape, load: float, numbers: Numbers) -> SmoothContact | SmoothLine:
-    """Return the flooded contact of the smooth bodies in the terms of film formulas; `load` [N] of the whole shape."""
-    oil = _VISCOSITY["barus"](numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0), _REFERENCE
-    smooth = shape.smooth(load, abs(numbers.entrainment_speed), *oil, numbers.reduced_modulus)
-    return replace(smooth, pressure_coefficient=max(numbers.pressure_viscosity, 1e-12))
+def solved(found_as: type[Found], call: FilmCall, finest: int = FINEST) -> Found:
+    """Solve for one steady film: on the grid that is asked for, or on the first that meets an accuracy.
 
-
-def solve_call(
-    found_as: type[Found],
-    shape: Shape,
-    load: float,
-    numbers: Numbers,
-    nodes: Grid,
-    heights: Array | None,
-    supply: tuple[float | None, float | None],
-    options: Mapping[str, str],
-) -> Found:
-    """Solve for one steady film.
-
-    `load` [N] of the whole shape; `supply`: oil layer and distance of the meniscus [m].
+    `finest`: most intervals along the shorter side of the grids of rough bodies.
     """
-    from ..film.estimate import solve_with_estimate  # kernels are loaded when a film is solved
+    options, heights, _ = call.options, call.heights, call.film  # which refuses films that are too thick
+    if not wants_accuracy(options["accuracy"], grid=options["grid"], tolerance=options["tolerance"]):
+        from ..film.estimate import solve_with_estimate  # kernels are loaded when a film is solved
 
-    now = _instant(shape, load, numbers, nodes, heights, supply, options)
-    found, values, errors = solve_with_estimate(now, nodes, _settings(numbers, options))
-    return _answer(found_as, now, nodes, found, values, errors)
+        nodes = call.nodes(options["grid"])
+        now = call.instant(nodes, heights)
+        found, values, errors = solve_with_estimate(now, nodes, call.settings)
+        return _answer(found_as, now, nodes, found, values, errors)
+    if heights is None:
+        return _to_accuracy(found_as, call, call.grids(), None)
+    given = call.nodes(None)
+    return _to_accuracy(found_as, call, grids_within(given, finest), surface_of(heights, given))
 
 
-def solve_to_accuracy(
-    found_as: type[Found],
-    shape: Shape,
-    load: float,
-    numbers: Numbers,
-    grids: Sequence[Grid],
-    surface: Surface | None,
-    supply: tuple[float | None, float | None],
-    options: Mapping[str, str],
-) -> Found:
-    """Solve for one steady film on the first of the grids, from coarse to fine, that meets `numbers.accuracy`.
+def _to_accuracy(found_as: type[Found], call: FilmCall, grids: Sequence[Grid], surface: Surface | None) -> Found:
+    """Solve for one steady film on the first of the grids, from coarse to fine, that meets the accuracy.
 
-    `surface`: None if smooth; no grid that does not show it is the answer, but the finest. Else as `solve_call`.
+    `surface`: None if smooth; no grid that does not show it is the answer, but the finest.
     """
     from ..film.refined import Request, refined_film  # kernels are loaded when a film is solved
 
     def on(grid: Grid) -> Instant:
-        heights = None if surface is None else surface.on(grid)
-        return _instant(shape, load, numbers, grid, heights, supply, options)
+        return call.instant(grid, None if surface is None else surface.on(grid))
 
     shown = np.inf if surface is None else max(surface.spacing, grids[-1].spacing)
-    found = refined_film(on, grids, _settings(numbers, options), Request(numbers.accuracy, coarsest=shown))
+    found = refined_film(on, grids, call.settings, Request(call.numbers.accuracy, coarsest=shown))
     best = found.best
     answer = _answer(found_as, on(best.grid), best.grid, best.solution, best.values, found.errors)
     return replace(answer, steps=found.steps, warnings=(*answer.warnings, *found.warnings))
-
-
-def _instant(
-    shape: Shape,
-    load: float,
-    numbers: Numbers,
-    nodes: Grid,
-    heights: Array | None,
-    supply: tuple[float | None, float | None],
-    options: Mapping[str, str],
-) -> Instant:
-    hertz = shape.hertz(load, numbers.reduced_modulus)
-    if supply[1] is not None and supply[1] <= hertz.a:
-        refuse(
-            [
-                f"meniscus = {supply[1]:g} m must be more than the half width of Hertz's contact, {hertz.a:.3g} m: no "
-                "oil would be before it."
-            ]
-        )
-    if supply[0] is not None and options["cavitation"] != "mass_conserving":
-        refuse([f"supply = {supply[0]:g} m needs cavitation = 'mass_conserving'; otherwise every gap counts as full."])
-    return Instant(
-        load=load,
-        entrainment_speed=numbers.entrainment_speed,
-        temperature=_REFERENCE,
-        shape=shape,
-        reduced_modulus=numbers.reduced_modulus,
-        viscosity=_VISCOSITY[options["viscosity_law"]](numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0),
-        density=_DENSITY[options["density_law"]](),
-        heights=np.zeros(nodes.shape) if heights is None else heights,
-        limit=np.full(nodes.shape, numbers.hardness),
-        hardness=numbers.hardness,
-        conserving=options["cavitation"] == "mass_conserving",
-        supply=supply[0],
-        meniscus=supply[1],
-    )
-
-
-def _settings(numbers: Numbers, options: Mapping[str, str]) -> Settings:
-    lumped, fitted = options["criterion"] == "lumped", options["flux"] == "fitted"
-    return Settings(numbers.floor, numbers.tolerance, numbers.iterations, options["fft"], lumped, fitted)
 
 
 def _answer(
@@ -267,11 +252,11 @@ def _answer(
     )
 
 
-def heights_of(first: ArrayLike | None, second: ArrayLike | None) -> Array | None:
+def heights_of(options: Mapping[str, Any]) -> Array | None:
     """Return the heights of both bodies together, or None for smooth ones."""
     given = []
-    for name, values in (("heights_1", first), ("heights_2", second)):
-        if values is None:
+    for name in ("heights_1", "heights_2"):
+        if (values := options[name]) is None:
             continue
         try:
             array = np.array(values, dtype=np.float64)
@@ -302,6 +287,15 @@ def grid_nodes(grid: int | tuple[int, int] | None) -> tuple[int | None, int | No
     if len(nodes) not in (1, 2):
         refuse([f"grid = {grid!r} must be one whole number or (ny, nx)."])
     return (None, nodes[0]) if len(nodes) == 1 else (nodes[0], nodes[1])
+
+
+def nodes_of(heights: Array, ny: int | None, nx: int | None) -> tuple[int, int]:
+    """Return the nodes of heights. Raises OperatingPointError if `grid` asks for others."""
+    rows, columns = heights.shape
+    if nx is not None and (ny or rows, nx) != heights.shape:
+        asked = nx if ny is None else (ny, nx)
+        refuse([f"grid = {asked} does not fit heights of {heights.shape} nodes. Leave grid out: heights decide it."])
+    return rows, columns
 
 
 def no_numbers(given: dict[str, Any]) -> list[str]:

@@ -6,16 +6,15 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..errors import OperatingPointError
 from ..film.grid_steps import GridStep, area_by_chance
 from ..film.instant import Grid
+from ..kernels.arrays import Array
 from ..quantities import out_of_range, parameter
 from ..reference import hertz_point
 from .refinement import refined_cells, surface_of, wants_accuracy
-
-Array = NDArray[np.float64]
 
 _ITERATIONS = 1000
 _RELATIVE, _ABSOLUTE = ("pressure_max", "approach"), ("contact_area_ratio",)  # errors that `accuracy` bounds

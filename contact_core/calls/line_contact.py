@@ -1,32 +1,19 @@
 """Lubricated line contact at one instant in one call, with or without ends. SI, arrays in and out."""
 
 from dataclasses import dataclass, fields
+from typing import Unpack
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
+from ..film.fitted import line_extent, rows_over
 from ..film.instant import Grid
+from ..kernels.arrays import Array
 from ..laws.profile import Logarithmic, Measured, Rounded
 from ..quantities import out_of_range, parameter
 from ..shapes import Line, Profile, Roller
-from .common import (
-    FilmContact,
-    Numbers,
-    check_choices,
-    film_of,
-    grid_nodes,
-    heights_of,
-    no_numbers,
-    numbers_of,
-    refuse,
-    smooth_of,
-    solve_call,
-    solve_to_accuracy,
-)
-from .inlet import extent_before
-from .refinement import MOST_NODES, grids_within, intervals, surface_of, wants_accuracy
-
-Array = NDArray[np.float64]
+from .common import FilmCall, FilmContact, Numbers, grid_nodes, heights_of, no_numbers, nodes_of, numbers_of, solved
+from .options import ContactOptions, check_choices, options_of, refuse, shows_options
+from .refinement import MOST_NODES, intervals
 
 _NODES = 257  # along x of smooth bodies
 _MOST = 8193  # nodes along an axis
@@ -47,6 +34,7 @@ class _Numbers(Numbers):
     length: float = parameter("m", "length of the line", above=0.0, most=100.0, default=1.0)
 
 
+@shows_options
 def line_contact(
     *,
     load: float,
@@ -58,23 +46,8 @@ def line_contact(
     pressure_viscosity: float,
     length: float | None = None,
     profile: Profile | None = None,
-    viscosity_law: str = "roelands",
-    density_law: str = "dowson_higginson",
-    heights_1: ArrayLike | None = None,
-    heights_2: ArrayLike | None = None,
-    spacing: float | None = None,
-    hardness: float | None = None,
-    grid: int | tuple[int, int] | None = None,
     domain: tuple[float, float] | None = None,
-    floor: float = 1e-9,
-    cavitation: str = "reynolds",
-    supply: float | None = None,
-    meniscus: float | None = None,
-    accuracy: float | None = None,
-    tolerance: float | None = None,
-    iterations: int = 2000,
-    flux: str = "fitted",
-    fft: str = "pyfftw",
+    **options: Unpack[ContactOptions],
 ) -> LineContact:
     """Solve for steady mixed lubrication of a line contact, from full film to dry.
 
@@ -98,20 +71,10 @@ def line_contact(
         Length of the line [m]; 1 m if not given.
     profile
         Ends of a roller, such as `Rounded`, `Logarithmic` or `Measured`.
-    viscosity_law, density_law, hardness, floor, cavitation, supply, meniscus, tolerance, iterations, flux, fft
-        As in `point_contact`.
-    accuracy
-        As in `point_contact`; smooth bodies without ends have from 65 to 4097 nodes along x, rough ones up to 1025.
-        Rows that repeat keep their period: finer grids have more of them.
-    heights_1, heights_2
-        Heights [ny, nx] of each body [m], positive toward the other one, centred on the contact. Without ends their
-        first row follows their last: an even number of rows, or one.
-    spacing
-        Distance between the nodes of the heights [m].
-    grid
-        Nodes along x of smooth bodies (257 if not given), for a roller (ny, nx), too.
     domain
         (x_min, x_max) [m] about the contact instead of the one that fits the film; cells are square.
+    **options
+        Heights, grid or accuracy, oil supply, laws and more: see `ContactOptions`.
 
     Raises
     ------
@@ -121,23 +84,16 @@ def line_contact(
         If no solution is found.
 
     """
-    numbers = numbers_of(
-        _Numbers,
-        {
-            "load": load, "radius": radius, "length": length, "reduced_modulus": reduced_modulus, "speed_1": speed_1,
-            "speed_2": speed_2, "viscosity": viscosity, "pressure_viscosity": pressure_viscosity, "hardness": hardness,
-            "floor": floor, "tolerance": tolerance, "iterations": iterations, "spacing": spacing, "supply": supply,
-            "meniscus": meniscus, "accuracy": accuracy,
-        },
-    )  # fmt: skip
-    options = {
-        "viscosity_law": viscosity_law, "density_law": density_law, "criterion": "split", "cavitation": cavitation,
-        "flux": flux, "fft": fft,
+    given = options_of(line_contact, options) | {"criterion": "split"}
+    contact = {
+        "load": load, "radius": radius, "length": length, "reduced_modulus": reduced_modulus, "speed_1": speed_1,
+        "speed_2": speed_2, "viscosity": viscosity, "pressure_viscosity": pressure_viscosity,
     }  # fmt: skip
-    check_choices(options)
+    numbers = numbers_of(_Numbers, contact | given)
+    check_choices(given)
     if profile is not None and length is None:
         refuse(["length = None: a line with ends needs its length in metres."])
-    heights = heights_of(heights_1, heights_2)
+    heights = heights_of(given)
     shape = Line(numbers.radius, numbers.length)
     if profile is not None:
         refuse(_no_profile(profile, numbers.length))
@@ -151,17 +107,7 @@ def line_contact(
                 "would yield as a whole. Lower the load or raise the hardness."
             ]
         )
-    film = film_of(shape, total, numbers, supply)
-    starved = (supply, meniscus)
-    if wants_accuracy(accuracy, grid=grid, tolerance=tolerance):
-        if heights is None:
-            grids, surface = _grids(numbers, shape, total, film, domain), None
-        else:
-            given = _grid(numbers, shape, total, film, heights, spacing, None, domain)
-            grids, surface = grids_within(given, _FINEST_ROUGH), surface_of(heights, given)
-        return solve_to_accuracy(LineContact, shape, total, numbers, grids, surface, starved, options)
-    nodes = _grid(numbers, shape, total, film, heights, spacing, grid, domain)
-    return solve_call(LineContact, shape, total, numbers, nodes, heights, starved, options)
+    return solved(LineContact, _Call(shape, total, numbers, given, domain, heights), _FINEST_ROUGH)
 
 
 def _no_profile(profile: Profile, length: float) -> list[str]:
@@ -178,78 +124,74 @@ def _no_profile(profile: Profile, length: float) -> list[str]:
     return sentences
 
 
-def _grid(
-    numbers: _Numbers,
-    shape: Line,
-    load: float,
-    film: float,
-    heights: Array | None,
-    spacing: float | None,
-    grid: int | tuple[int, int] | None,
-    domain: tuple[float, float] | None,
-    before: float = 0.0,
-) -> Grid:
-    """Return the nodes that the arguments ask for; they reach `before` [m] the centre if the domain is open."""
-    from ..film.fitted import line_extent, rows_over
+class _Call(FilmCall):
+    shape: Line
 
-    ny, nx = grid_nodes(grid)
-    if ny is not None and shape.periodic:
-        refuse([f"grid = {grid} has rows: smooth lines without ends have one, that of rough ones heights decide."])
-    if heights is not None:
-        if nx is not None and (ny or heights.shape[0], nx) != heights.shape:
-            refuse([f"grid = {grid} does not fit heights of {heights.shape} nodes. Leave grid out: heights decide it."])
+    def nodes(self, grid: int | tuple[int, int] | None) -> Grid:
+        """Return the nodes that the arguments ask for."""
+        return self._nodes(grid, self.options["spacing"])
+
+    def grids(self) -> list[Grid]:
+        """Return grids for smooth bodies, from coarse to fine."""
+        before = self.before()
+        counts = intervals(_COARSEST, _FINEST) if self.shape.periodic else intervals()
+        grids = (self._nodes(count + 1, None, before) for count in counts)
+        return [grid for grid in grids if grid.x.size * grid.y.size <= MOST_NODES]
+
+    def _nodes(self, grid: int | tuple[int, int] | None, spacing: float | None, before: float = 0.0) -> Grid:
+        """Return nodes; they reach `before` [m] the centre if the domain is open."""
+        shape, heights = self.shape, self.heights
+        ny, nx = grid_nodes(grid)
+        if ny is not None and shape.periodic:
+            refuse([f"grid = {grid} has rows: smooth lines without ends have one, that of rough ones heights decide."])
+        if heights is not None:
+            ny, nx = nodes_of(heights, ny, nx)
+            self._check_rows(ny, nx, spacing)
+        nx = nx or _NODES
+        if not 17 <= nx <= _MOST or (ny is not None and ny > _MOST):
+            refuse([f"grid = {(ny, nx)} must have from 17 to {_MOST} nodes along x, and at most as many along y."])
+        x, spacing = self._along(nx, spacing, before)
+        if shape.periodic:
+            rows = ny or 1
+            y = (np.arange(rows, dtype=np.float64) - 0.5 * (rows - 1)) * spacing
+            return Grid(x, y, periodic=True, repeats=shape.length / (rows * spacing))
+        rows = ny or rows_over(_BESIDE * shape.length, spacing, nx)
+        if rows > _MOST:
+            refuse(
+                [
+                    f"length = {shape.length:g} m takes {rows} rows of cells {spacing:.3g} m wide, above {_MOST}. Use "
+                    "fewer nodes along x, or a line without ends."
+                ]
+            )
+        return Grid(x, (np.arange(rows, dtype=np.float64) - 0.5 * (rows - 1)) * spacing)
+
+    def _along(self, nx: int, spacing: float | None, before: float) -> tuple[Array, float]:
+        """Return the nodes along x, and their spacing."""
+        if spacing is not None:
+            return (np.arange(nx, dtype=np.float64) - 0.5 * (nx - 1)) * spacing, spacing
+        if self.domain is None:
+            left, right = line_extent(self.shape, self.load, self.numbers.reduced_modulus, self.film)
+            left = max(left, before)
+        else:
+            left, right = _sides(self.domain)
+        spacing = (left + right) / (nx - 1)
+        before = left / spacing if self.domain is not None else round(left / spacing)  # a node lies on the centre
+        x = (np.arange(nx, dtype=np.float64) - before) * spacing
+        return -x[::-1] if self.numbers.entrainment_speed < 0.0 and self.domain is None else x, spacing
+
+    def _check_rows(self, ny: int, nx: int, spacing: float | None) -> None:
         if spacing is None:
             refuse(["spacing = None: heights need the distance between their nodes in metres."])
-        ny, nx = heights.shape
-        if ny < 1 or nx < 17:
-            refuse([f"heights of {heights.shape} nodes [ny, nx] are too few: 17 along x are the least, and one row."])
-        if shape.periodic and ny > 1 and ny % 2:
+        elif ny < 1 or nx < 17:
+            refuse([f"heights of {ny, nx} nodes [ny, nx] are too few: 17 along x are the least, and one row."])
+        elif self.shape.periodic and ny > 1 and ny % 2:
             refuse([f"heights of {ny} rows: a line without ends needs an even number of rows, or one."])
-        if not shape.periodic and (ny - 1) * numbers.spacing < numbers.length:
-            reach = (ny - 1) * numbers.spacing
-            refuse([f"heights are {reach:g} m long; they must reach over length = {shape.length:g} m."])
-    nx = nx or _NODES
-    if not 17 <= nx <= _MOST or (ny is not None and ny > _MOST):
-        refuse([f"grid = {(ny, nx)} must have from 17 to {_MOST} nodes along x, and at most as many along y."])
-    if domain is None:
-        left, right = line_extent(shape, load, numbers.reduced_modulus, film)
-        left = max(left, before)
-    else:
-        left, right = _sides(domain)
-    if spacing is None:
-        spacing = (left + right) / (nx - 1)
-        before = left / spacing if domain is not None else round(left / spacing)  # a node lies on the centre
-        x = (np.arange(nx, dtype=np.float64) - before) * spacing
-        if numbers.entrainment_speed < 0.0 and domain is None:
-            x = -x[::-1]
-    else:
-        x = (np.arange(nx, dtype=np.float64) - 0.5 * (nx - 1)) * spacing
-    if shape.periodic:
-        rows = ny or 1
-        y = (np.arange(rows, dtype=np.float64) - 0.5 * (rows - 1)) * spacing
-        return Grid(x, y, periodic=True, repeats=shape.length / (rows * spacing))
-    rows = ny or rows_over(_BESIDE * shape.length, spacing, nx)
-    if rows > _MOST:
-        refuse(
-            [
-                f"length = {shape.length:g} m takes {rows} rows of cells {spacing:.3g} m wide, above {_MOST}. Use "
-                "fewer nodes along x, or a line without ends."
-            ]
-        )
-    return Grid(x, (np.arange(rows, dtype=np.float64) - 0.5 * (rows - 1)) * spacing)
+        elif not self.shape.periodic and (ny - 1) * spacing < self.shape.length:
+            reach = (ny - 1) * spacing
+            refuse([f"heights are {reach:g} m long; they must reach over length = {self.shape.length:g} m."])
 
 
-def _grids(numbers: _Numbers, shape: Line, load: float, film: float, domain: tuple[float, float] | None) -> list[Grid]:
-    """Return grids for smooth bodies, from coarse to fine."""
-    a, before = shape.hertz(load, numbers.reduced_modulus).a, 0.0
-    if film > 0.0:
-        before = extent_before(numbers.accuracy, a, shape, smooth_of(shape, load, numbers))
-    counts = intervals(_COARSEST, _FINEST) if shape.periodic else intervals()
-    grids = (_grid(numbers, shape, load, film, None, None, count + 1, domain, before) for count in counts)
-    return [grid for grid in grids if grid.x.size * grid.y.size <= MOST_NODES]
-
-
-def _sides(domain: tuple[float, float]) -> tuple[float, float]:
+def _sides(domain: tuple[float, ...]) -> tuple[float, float]:
     try:
         x_min, x_max = (float(value) for value in domain)
         about = x_min < 0.0 < x_max and bool(np.isfinite(domain).all())

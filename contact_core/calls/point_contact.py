@@ -1,30 +1,17 @@
 """Lubricated circular or elliptical point contact at one instant in one call. SI, arrays in and out."""
 
 from dataclasses import dataclass, replace
+from typing import Literal, Unpack
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
+from ..film.fitted import Extent
 from ..film.instant import Grid
 from ..quantities import TABLE, parameter
 from ..shapes import Point
-from .common import (
-    FilmContact,
-    Numbers,
-    check_choices,
-    film_of,
-    grid_nodes,
-    heights_of,
-    numbers_of,
-    refuse,
-    smooth_of,
-    solve_call,
-    solve_to_accuracy,
-)
-from .inlet import extent_before
-from .refinement import MOST_NODES, grids_within, intervals, surface_of, wants_accuracy
-
-Array = NDArray[np.float64]
+from .common import FilmCall, FilmContact, Numbers, grid_nodes, heights_of, nodes_of, numbers_of, solved
+from .options import ContactOptions, check_choices, options_of, refuse, shows_options
+from .refinement import MOST_NODES, grids_within, intervals
 
 _SLIMMEST = 30.0  # ratio of the radii, either way
 
@@ -80,6 +67,7 @@ class _Numbers(Numbers):
     radius_y: float = parameter("m", "combined radius of curvature along y", above=0.0, most=100.0)
 
 
+@shows_options
 def point_contact(
     *,
     load: float,
@@ -90,24 +78,9 @@ def point_contact(
     speed_2: float,
     viscosity: float,
     pressure_viscosity: float,
-    viscosity_law: str = "roelands",
-    density_law: str = "dowson_higginson",
-    heights_1: ArrayLike | None = None,
-    heights_2: ArrayLike | None = None,
-    spacing: float | None = None,
-    hardness: float | None = None,
-    grid: int | tuple[int, int] | None = None,
     domain: tuple[float, float, float, float] | None = None,
-    floor: float = 1e-9,
-    criterion: str = "split",
-    cavitation: str = "reynolds",
-    supply: float | None = None,
-    meniscus: float | None = None,
-    accuracy: float | None = None,
-    tolerance: float | None = None,
-    iterations: int = 2000,
-    flux: str = "fitted",
-    fft: str = "pyfftw",
+    criterion: Literal["split", "lumped"] = "split",
+    **options: Unpack[ContactOptions],
 ) -> PointContact:
     """Solve for steady mixed lubrication of a point contact, from full film to dry.
 
@@ -126,47 +99,13 @@ def point_contact(
         Surface speeds along x relative to the contact [m/s].
     viscosity, pressure_viscosity
         Viscosity [Pa s] and pressure coefficient [1/Pa] at p = 0.
-    viscosity_law
-        "roelands" or "barus".
-    density_law
-        "dowson_higginson" or "none".
-    heights_1, heights_2
-        Heights [ny, nx] of each body [m], positive toward the other one, centred on the contact.
-    spacing
-        Distance between the nodes of the heights [m].
-    hardness
-        Largest pressure [Pa]; None: no limit.
-    grid
-        Nodes along x of smooth bodies, with as many along y as the film needs (the same for a circle), or (ny, nx);
-        129 along the shorter side if not given.
     domain
         (x_min, x_max, y_min, y_max) [m] about the contact instead of the grid that fits the film; cells are square.
-    floor
-        Gap at which solids touch [m].
     criterion
         "split" for fluid and solid pressure apart, "lumped" for one pressure as in Azam et al. 2019 (with
         floor = 0.47e-9).
-    cavitation
-        "reynolds": a gap without pressure counts as full; "mass_conserving": it holds what flows in.
-    supply
-        Oil on both surfaces together before the contact [m]; None: flooded.
-    meniscus
-        Distance [m] before the centre at which the inlet begins to fill; None: at the edge of the grid.
-    accuracy
-        Largest error of h_central, h_c and pressure_max, relative, and of contact_load_ratio and contact_area_ratio,
-        absolute, instead of `grid` and `tolerance`: grids are refined until the stated errors (`error_estimate`) are
-        within it; `steps` tells which. They have from 33 to 513 nodes along the shorter side. Heights then define a
-        surface, by a cubic spline between their nodes, and all grids, coarser and finer ones, sample it over the same
-        extent. The fields of the result lie on the last grid (`x`, `y`), at least as fine as the heights. `warnings`
-        tells where the accuracy is not reached.
-    tolerance
-        Relative pressure change of a converged solution; 1e-3 if not given.
-    iterations
-        Largest number of iterations.
-    flux
-        Flow between nodes: "fitted", exact for a constant flow in each cell, or "upwind", of second order.
-    fft
-        "pyfftw" or "scipy"; FFTW is under the GPL.
+    **options
+        Heights, grid or accuracy, oil supply, laws and more: see `ContactOptions`.
 
     Raises
     ------
@@ -176,33 +115,17 @@ def point_contact(
         If no solution is found.
 
     """
-    numbers = numbers_of(
-        _Numbers,
-        {
-            "load": load, "radius_x": radius_x, "radius_y": radius_x if radius_y is None else radius_y,
-            "reduced_modulus": reduced_modulus, "speed_1": speed_1, "speed_2": speed_2, "viscosity": viscosity,
-            "pressure_viscosity": pressure_viscosity, "hardness": hardness, "floor": floor, "tolerance": tolerance,
-            "iterations": iterations, "spacing": spacing, "supply": supply, "meniscus": meniscus, "accuracy": accuracy,
-        },
-    )  # fmt: skip
-    refuse(_too_slim(numbers))
-    options = {
-        "viscosity_law": viscosity_law, "density_law": density_law, "criterion": criterion, "cavitation": cavitation,
-        "flux": flux, "fft": fft,
+    given = options_of(point_contact, options) | {"criterion": criterion}
+    contact = {
+        "load": load, "radius_x": radius_x, "radius_y": radius_x if radius_y is None else radius_y,
+        "reduced_modulus": reduced_modulus, "speed_1": speed_1, "speed_2": speed_2, "viscosity": viscosity,
+        "pressure_viscosity": pressure_viscosity,
     }  # fmt: skip
-    check_choices(options)
-    heights, shape = heights_of(heights_1, heights_2), Point(numbers.radius_x, numbers.radius_y)
-    film = film_of(shape, numbers.load, numbers, supply)
-    starved = (supply, meniscus)
-    if wants_accuracy(accuracy, grid=grid, tolerance=tolerance):
-        if heights is None:
-            grids, surface = _grids(numbers, shape, film, domain), None
-        else:
-            given = _grid(numbers, shape, film, heights, spacing, None, domain)
-            grids, surface = grids_within(given), surface_of(heights, given)
-        return solve_to_accuracy(PointContact, shape, numbers.load, numbers, grids, surface, starved, options)
-    nodes = _grid(numbers, shape, film, heights, spacing, grid, domain)
-    return solve_call(PointContact, shape, numbers.load, numbers, nodes, heights, starved, options)
+    numbers = numbers_of(_Numbers, contact | given)
+    refuse(_too_slim(numbers))
+    check_choices(given)
+    heights, shape = heights_of(given), Point(numbers.radius_x, numbers.radius_y)
+    return solved(PointContact, _Call(shape, numbers.load, numbers, given, domain, heights))
 
 
 def _too_slim(numbers: _Numbers) -> list[str]:
@@ -214,68 +137,56 @@ def _too_slim(numbers: _Numbers) -> list[str]:
     return []
 
 
-def _grid(
-    numbers: _Numbers,
-    shape: Point,
-    film: float,
-    heights: Array | None,
-    spacing: float | None,
-    grid: int | tuple[int, int] | None,
-    domain: tuple[float, float, float, float] | None,
-) -> Grid:
-    """Return the nodes that the arguments ask for."""
-    ny, nx = grid_nodes(grid)
-    if heights is not None:
-        if heights.shape[0] < 17 or heights.shape[1] < 17:
-            refuse([f"heights of {heights.shape} nodes [ny, nx] are too few: 17 along each axis are the least."])
-        if nx is not None and (ny or nx, nx) != heights.shape:
-            refuse([f"grid = {grid} does not fit heights of {heights.shape} nodes. Leave grid out: heights decide it."])
-        ny, nx = heights.shape
-    from ..film.fitted import Extent
+class _Call(FilmCall):
+    shape: Point
 
-    extent = Extent.of(shape, numbers.load, numbers.reduced_modulus, film)
-    sides = None if domain is None else _sides(domain)
-    if ny is None or nx is None:
+    def nodes(self, grid: int | tuple[int, int] | None) -> Grid:
+        """Return the nodes that the arguments ask for."""
+        heights, spacing = self.heights, self.options["spacing"]
+        ny, nx = grid_nodes(grid)
+        if heights is not None:
+            if heights.shape[0] < 17 or heights.shape[1] < 17:
+                refuse([f"heights of {heights.shape} nodes [ny, nx] are too few: 17 along each axis are the least."])
+            ny, nx = nodes_of(heights, ny or nx, nx)
+        sides = None if self.domain is None else _sides(self.domain)
+        if ny is None or nx is None:
+            if sides is not None:
+                nx = nx or 129
+                ny = round((nx - 1) * (sides[3] - sides[2]) / (sides[1] - sides[0])) + 1
+            elif self.shape.circular:
+                ny, nx = nx or 129, nx or 129
+            else:
+                ny, nx = self._extent.shape(nx)
+        if min(ny, nx) < 17 or max(ny, nx) > 4097:
+            refuse([f"grid = {(ny, nx)} must be one number or (ny, nx), from 17 to 4097 nodes along each axis."])
         if sides is not None:
-            nx = nx or 129
-            ny = round((nx - 1) * (sides[3] - sides[2]) / (sides[1] - sides[0])) + 1
-        elif shape.circular:
-            ny, nx = nx or 129, nx or 129
-        else:
-            ny, nx = extent.shape(nx)
-    if min(ny, nx) < 17 or max(ny, nx) > 4097:
-        refuse([f"grid = {(ny, nx)} must be one number or (ny, nx), from 17 to 4097 nodes along each axis."])
-    if sides is not None:
-        return _grid_of_sides(sides, spacing, ny, nx)
-    if heights is not None and spacing is None:
-        refuse(["spacing = None: heights need the distance between their nodes in metres."])
-    if spacing is not None:
-        if not (np.isfinite(spacing) and spacing > 0.0):
-            refuse([f"spacing = {spacing:g} m must be finite and above 0."])
-        return Grid.centred(ny, nx, spacing)
-    found = extent.grid(ny, nx)
-    return found if numbers.speed_1 + numbers.speed_2 >= 0.0 else found.mirrored()
+            return _grid_of_sides(sides, spacing, ny, nx)
+        if heights is not None and spacing is None:
+            refuse(["spacing = None: heights need the distance between their nodes in metres."])
+        if spacing is not None:
+            return Grid.centred(ny, nx, spacing)
+        return self._upstream(self._extent.grid(ny, nx))
+
+    def grids(self) -> list[Grid]:
+        """Return grids for smooth bodies, from coarse to fine."""
+        if self.domain is not None:
+            sides = _sides(self.domain)
+            return grids_within(Grid(np.array(sides[:2]), np.array(sides[2:])))
+        extent, circular = self._extent, self.shape.circular
+        extent = replace(extent, left=max(extent.left, self.before()))
+        nodes = ((n, n) if circular else extent.shape(shorter=n) for n in (count + 1 for count in intervals()))
+        return [self._upstream(extent.grid(*shape)) for shape in nodes if shape[0] * shape[1] <= MOST_NODES]
+
+    @property
+    def _extent(self) -> Extent:
+        return Extent.of(self.shape, self.load, self.numbers.reduced_modulus, self.film)
+
+    def _upstream(self, grid: Grid) -> Grid:
+        """Return a grid whose longer side is that of the inlet."""
+        return grid if self.numbers.entrainment_speed >= 0.0 else grid.mirrored()
 
 
-def _grids(
-    numbers: _Numbers, shape: Point, film: float, domain: tuple[float, float, float, float] | None
-) -> list[Grid]:
-    """Return grids for smooth bodies, from coarse to fine."""
-    from ..film.fitted import Extent
-
-    if domain is not None:
-        sides = _sides(domain)
-        return grids_within(Grid(np.array(sides[:2]), np.array(sides[2:])))
-    extent = Extent.of(shape, numbers.load, numbers.reduced_modulus, film)
-    a, smooth = shape.hertz(numbers.load, numbers.reduced_modulus).a, smooth_of(shape, numbers.load, numbers)
-    if film > 0.0:
-        extent = replace(extent, left=max(extent.left, extent_before(numbers.accuracy, a, shape, smooth)))
-    nodes = ((n, n) if shape.circular else extent.shape(shorter=n) for n in (count + 1 for count in intervals()))
-    grids = [extent.grid(*shape) for shape in nodes if shape[0] * shape[1] <= MOST_NODES]
-    return grids if numbers.entrainment_speed >= 0.0 else [grid.mirrored() for grid in grids]
-
-
-def _sides(domain: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
+def _sides(domain: tuple[float, ...]) -> tuple[float, float, float, float]:
     try:
         x_min, x_max, y_min, y_max = (float(value) for value in domain)
         about = x_min < 0.0 < x_max and y_min < 0.0 < y_max and bool(np.isfinite(domain).all())

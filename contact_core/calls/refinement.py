@@ -4,14 +4,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import OperatingPointError
 from ..film.instant import Grid
+from ..kernels.arrays import Array
 
-Array = NDArray[np.float64]
-
-_COARSEST, _FINEST = 32, 512  # intervals along the shorter side
+COARSEST, FINEST = 32, 512  # intervals along the shorter side
 MOST_NODES = 600_000
 _FINER = 0.9  # spacing over that of the grid before, at most
 _MOST_DRY_NODES = 1_100_000  # of a dry contact, which costs less
@@ -33,7 +31,7 @@ def wants_accuracy(accuracy: float | None, **expert: object) -> bool:
     return accuracy is not None
 
 
-def intervals(least: int = _COARSEST, most: int = _FINEST) -> Iterator[int]:
+def intervals(least: int = COARSEST, most: int = FINEST) -> Iterator[int]:
     """Return 2^k and 3 2^k from `least` to `most`: grids that can be halved, each 4/3 or 3/2 as fine as the last."""
     for power in range(1, 14):
         for count in (2**power, 3 * 2 ** (power - 1)):
@@ -41,10 +39,10 @@ def intervals(least: int = _COARSEST, most: int = _FINEST) -> Iterator[int]:
                 yield count
 
 
-def grids_within(given: Grid, finest: int = _FINEST) -> list[Grid]:
+def grids_within(given: Grid, finest: int = FINEST) -> list[Grid]:
     """Return grids over the extent of a given one, from coarse to fine."""
     grids: list[Grid] = []
-    for count in intervals(_COARSEST, finest):
+    for count in intervals(COARSEST, finest):
         grid = refined_grid(given, count)
         if grid.x.size * grid.y.size > MOST_NODES:
             break

@@ -5,12 +5,11 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..errors import OperatingPointError
+from ..kernels.arrays import Array
 from ..quantities import out_of_range, parameter
-
-Array = NDArray[np.float64]
 
 _SHALLOWEST, _DEEPEST = 0.5, 1.5  # of `graded_depths`: in spacings, in half widths
 _SHEARS = ("shear_x", "shear_y")

@@ -1,6 +1,7 @@
 """The regression level with what corrects its friction, h_c and W_c: nothing, deterministic blocks, or a map.
 
-    moved    a contact moved by a deviation, and all that follows from it
+    correction  what any correction says of a contact, and all that follows from it
+    places   where a contact lies among others
     kriging  what solved contacts say about the deviations elsewhere: closed form
     blocks   steps corrected by deterministic blocks where they are not sure enough
     map      the record of a map: arrays of numbers, its file, the scene that it belongs to
@@ -15,9 +16,10 @@ A correction is a value of `film.correction`; each has a step, with the errors t
 from collections.abc import Callable
 
 from .. import deterministic, regression
+from ..regression import errors_of as errors_of  # a correction states its errors in the outputs
 from ..regression.surfaces import regression_film
-from ..scene import Case, Scene
-from ..state import ContactState, Error, Outputs
+from ..scene import Case
+from ..state import ContactState, Outputs
 from . import blocks, by_map
 
 Step = Callable[[Case, ContactState, float], tuple[ContactState, Outputs]]
@@ -35,8 +37,3 @@ def warm_up(case: Case, state: ContactState) -> None:
     regression.warm_up(case, state)
     if regression_film(case.scene).correction == "blocks":
         deterministic.warm_up(blocks.deep(case), state)
-
-
-def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
-    """Return the errors of the outputs by name, each in the unit of its output."""
-    return regression.errors_of(scene, state)

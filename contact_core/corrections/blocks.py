@@ -9,22 +9,21 @@ solved again: what is left of the error is stated, and `RangeFlag.UNSURE` raised
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import deterministic, regression
 from ..errors import ContactError
+from ..kernels.arrays import Array
 from ..regression.contact import MeanContact, Stated, evaluate
-from ..regression.outputs import half_widths
 from ..regression.surfaces import Tribofilms
 from ..scene import Case
 from ..state import ContactState, Outputs, RangeFlag, Solved, changed, flag_of_errors
-from .kriging import ABSOLUTE, CORRECTED, CORRELATIONS, Conditioned, Conditioner, Knots, Place, knots, nearness, place
-from .moved import Deviation, exact, moved
+from .correction import CORRECTED, UNSURE, Deviation, Three, corrected
+from .kriging import ABSOLUTE, CORRELATIONS, Conditioned, Conditioner, Knots, knots, nearness, place
+from .places import Place
 
 ACCURACY = 0.1  # of a scene that asks for none
 MOST = 64  # blocks that a state keeps
 _NEAR = 0.9  # correlation with a solved place, from which on another block would tell nothing new
-_UNSURE = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK | RangeFlag.DOMAIN_EDGE
 _ASKED = ("error_friction", "error_film")
 _PLACE = len(Place._fields)
 _NOWHERE = np.empty((0, _PLACE + 2 * len(CORRECTED)))
@@ -58,15 +57,15 @@ class _Corrector:
 
     def contact(self, case: Case, tribofilms: Tribofilms) -> MeanContact:
         """Return the contact of a case under tribofilms, corrected."""
-        return self._corrected(case, evaluate(case, tribofilms))
-
-    def _corrected(self, case: Case, contact: MeanContact) -> MeanContact:
-        """Return a contact of the regression level, corrected; the same one if nothing is known."""
-        errors, force = half_widths(case, contact), contact.solid + contact.fluid
         self.raw = {}
-        if force == 0.0 or exact(case, contact):
-            return contact
-        self.raw = errors | {
+        return corrected(self, case, evaluate(case, tribofilms))
+
+    def at(self, case: Case, contact: MeanContact, stated: Three) -> tuple[Deviation, Stated] | None:
+        """Return what a contact deviates by, and the errors that are left; None without friction or a solved block."""
+        force = contact.solid + contact.fluid
+        if force == 0.0:
+            return None
+        self.raw = dict(zip(CORRECTED.values(), stated, strict=True)) | {
             "friction_coefficient": abs(force) / case.op.load,
             "friction_force": force,
             "friction_solid": contact.solid,
@@ -76,14 +75,13 @@ class _Corrector:
         }
         self.place, self.told = place(self.raw, case.op.load, case.speeds, case.pressed), self.raw
         if self._conditioner is None:
-            return contact
+            return None
         found = self._conditioner.at(_OWN, np.array([self.place], np.float64))
         values = Conditioned(found.mean[0], found.left[0]).of(self.raw)
         self.told = self.raw | {name: float(value) for name, value in values.items()}
         friction, film = (self.told[name] / self.raw[name] for name in ("friction_coefficient", "h_c"))
-        better = moved(contact, Deviation(friction, film, self.told[ABSOLUTE]), max(case.op.bodies))
         wide, thick, carried = (self.told[error] for error in CORRECTED.values())
-        return better._replace(stated=Stated(wide, thick, carried, trust=1.0))
+        return Deviation(friction, film, self.told[ABSOLUTE]), Stated(wide, thick, carried, trust=1.0)
 
     @property
     def asks(self) -> bool:
@@ -124,9 +122,9 @@ def _block(case: Case, state: ContactState, corrector: _Corrector) -> tuple[Solv
         found: Outputs | None = deterministic.advance(deep(case), state, 0.0)[1]
     except ContactError:
         found = None
-    solved = vars(found) if found is not None and not RangeFlag(found.range_flags) & _UNSURE else None
+    solved = vars(found) if found is not None and not RangeFlag(found.range_flags) & UNSURE else None
     knot = knots([""], [corrector.place], [corrector.raw], [solved])
-    row: NDArray[np.float64] = np.concatenate([knot.places, knot.off, knot.own], axis=1)
+    row: Array = np.concatenate([knot.places, knot.off, knot.own], axis=1)
     names = ("blocks_dry", "blocks_mixed", "blocks_fallback")
     counted = {name: getattr(found, name) for name in names} if found is not None else {}
     return Solved(np.vstack([corrector.rows, row])), counted

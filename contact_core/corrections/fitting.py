@@ -17,12 +17,10 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ContactError
+from ..kernels.arrays import Array, Indices, Mask
 from .map import COORDINATES, OUTPUTS, STEEPEST, Map
-
-Array = NDArray[np.float64]
 
 COVERED = 0.95  # of the contacts left out, by half widths
 FEWEST = 30  # contacts that a map is made of, at least
@@ -67,7 +65,7 @@ class Samples(NamedTuple):
     history: Array  # number of the history of each
     fine: Array  # 1: on the grid of the scene, 0: on the coarser one
 
-    def some(self, which: NDArray[np.bool_]) -> "Samples":
+    def some(self, which: Mask) -> "Samples":
         """Return some of the contacts."""
         return Samples(*(part[which] for part in self))
 
@@ -120,17 +118,12 @@ def left_out(samples: Samples, rule: Rule) -> tuple[Array, Array]:
         out = part_of == part
         fit = _Fit.of(samples.some(~out), rule)
         rest = samples.some(out)
-        off[out] = rest.off - _bounded(fit.at(rest.places, rest.fine), rest.shares)
+        off[out] = rest.off - bounded(fit.at(rest.places, rest.fine), rest.shares)
         wide[out] = fit.spread(rest.places, rest.fine)
     return off, wide
 
 
-def predicted(chart: Map, samples: Samples) -> Array:
-    """Return the deviations that a map has for contacts within its ranges, as in `Samples.off`."""
-    return _bounded(design(chart, samples.places) @ np.array(chart.weights).T, samples.shares)
-
-
-def _bounded(told: Array, shares: Array) -> Array:
+def bounded(told: Array, shares: Array) -> Array:
     """Return deviations as in `Samples.off` from polynomials, [contacts, outputs]."""
     told = np.clip(told, -STEEPEST, STEEPEST)
     odds = np.exp(told[:, 2])
@@ -350,7 +343,7 @@ def _sparse(scaled: Array, deviations: Array, history: Array, rule: Rule) -> lis
     return made[:best_made]
 
 
-def _press(basis: Array, left: Array, groups: list[NDArray[np.int64]]) -> float:
+def _press(basis: Array, left: Array, groups: list[Indices]) -> float:
     """Return the sum of squares of each history by all others, from an orthonormal basis and what it leaves."""
     total = 0.0
     for group in groups:

@@ -18,12 +18,10 @@ from ..regression.contact import MeanContact, evaluate
 from ..regression.surfaces import Means, tribofilms_of
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState, Mean, RangeFlag, initial_state
+from .correction import CORRECTED, UNSURE, Three
 from .fitting import Samples, TooFewError
-from .kriging import CORRECTED
 from .query import coordinates
 
-UNSURE = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK | RangeFlag.DOMAIN_EDGE  # of blocks that judge nothing
-Three = tuple[float, float, float]
 _LEAST = 1e-6  # half width: a smaller one tells nothing
 # least instants of a block elsewhere, which settles many times as long: mixed ones over the nodes along x, dry ones
 _MIXED, _DRY = 0.375, 9

@@ -21,25 +21,16 @@ import numpy as np
 import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
 
+from ..kernels.arrays import Array
 from ..scene import Scene
+from .correction import CORRECTED
+from .places import Guards, Place, place_of
 
-Array = NDArray[np.float64]
-
-CORRECTED = {  # output, and the output that states its error
-    "friction_coefficient": "error_friction",
-    "h_c": "error_film",
-    "contact_load_ratio": "error_load_ratio",
-}
 ABSOLUTE = "contact_load_ratio"  # its error is in its unit, the others' are relative
 _NARROWEST = 1e-3  # half width from which on a deviation tells something
 _WIDE = 1.96  # standard deviations in a half width
 _LEAST = 0.05  # of the regression level's value, that is left of a corrected one
-_SLIP, _OIL, _THIN, _NONE = (
-    0.1,
-    1e-4,
-    1e-3,
-    1e-9,
-)  # least numbers: no logarithm of 0
+_GUARDS = Guards(1e-4, np.log, np.maximum)
 
 
 class Correlation(NamedTuple):
@@ -60,16 +51,6 @@ CORRELATIONS: dict[str, Correlation] = {
 }
 
 
-class Place(NamedTuple):
-    """Where a contact lies, by what the regression level says of it; numbers or arrays."""
-
-    clearance: Any  # ln lambda_ratio
-    slip: Any  # ln of sliding over entrainment speed
-    pressed: Any  # ln of Hertz's largest pressure over the hardness
-    share: Any  # contact_load_ratio
-    oil: Any  # ln of the oil's friction over the load that it carries
-
-
 def pair_of(scene: Scene) -> str:
     """Return a name for the pair of surfaces of a scene: contacts of one pair deviate alike."""
     return f"{zlib.crc32(repr((scene.surface_1, scene.surface_2)).encode()):08x}"
@@ -84,13 +65,7 @@ def place(outputs: Mapping[str, Any], load: Any, speeds: tuple[Any, Any], presse
     mean, slide = 0.5 * np.abs(np.add(*speeds)), np.abs(np.subtract(*speeds))
     oil = np.abs(np.subtract(outputs["friction_force"], outputs["friction_solid"]))
     with np.errstate(divide="ignore", invalid="ignore"):
-        return Place(
-            np.log(np.maximum(outputs["lambda_ratio"], _THIN)),
-            np.log(slide / np.maximum(mean, _NONE) + _SLIP),
-            np.log(pressed),
-            share,
-            np.log(oil / (np.maximum(1.0 - share, _NONE) * load) + _OIL),
-        )
+        return place_of(_GUARDS, outputs["lambda_ratio"], mean, slide, pressed, share, oil, load)
 
 
 @dataclass(frozen=True)
@@ -202,11 +177,6 @@ class Conditioner:
             told = np.einsum("ij,ji->i", across, scipy.linalg.cho_solve(known.factor, across.T))
             lefts[usable, k] = np.minimum(known.wider * np.sqrt(np.clip(1.0 - told, 0.0, 1.0)), 1.0)
         return Conditioned(means, lefts)
-
-
-def conditioned(given: Knots, pairs: NDArray[Any], places: Array) -> Conditioned:
-    """Return what knots say of other places, [places, coordinates] on `pairs` of surfaces."""
-    return Conditioner(given).at(pairs, places)
 
 
 def nearness(law: Correlation, places: Array, others: Array) -> Array:

@@ -10,15 +10,13 @@ from typing import Any
 from ..errors import SceneError
 from ..film.regression import MAP_SUFFIX, map_file
 from ..scene import Scene
+from .correction import CORRECTED
+from .places import Place
 
 Numbers = tuple[float, ...]
-OUTPUTS = ("friction_coefficient", "h_c", "contact_load_ratio")  # in the order of `weights`, `uneven` and `own`
+OUTPUTS = tuple(CORRECTED)  # in the order of `weights`, `uneven` and `own`
 COORDINATES = (  # of a contact by the regression level, in the order of `query.coordinates`
-    "clearance",  # ln of h_c over composite roughness
-    "slip",  # ln of (sliding over entrainment speed + 0.1)
-    "pressed",  # ln of Hertz's largest pressure over the hardness
-    "share",  # contact_load_ratio
-    "oil",  # ln of (the oil's friction over the load that it carries + 0.02): pure rolling is near little sliding
+    *Place._fields,
     "cover",  # mean cover of both bodies by tribofilm
     "roughness",  # ln of composite roughness over that of new surfaces
     "speed",  # ln of the entrainment speed in m/s

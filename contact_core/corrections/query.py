@@ -5,20 +5,19 @@ source.
 """
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ..regression.contact import MeanContact, Stated, evaluate
-from ..regression.outputs import half_widths
 from ..regression.surfaces import Tribofilms
 from ..scene import Case
+from .correction import Deviation, Three, corrected, exact
 from .map import STEEPEST, Map
-from .moved import Deviation, exact, moved
+from .places import NONE, SLIP, Guards, place_of
 
-Three = tuple[float, float, float]
 Four = tuple[float, float, float, float]
 
-_SLIP, _OIL, _THIN, _WORN, _NONE = 0.1, 0.02, 1e-3, 0.01, 1e-9  # least numbers: no logarithm of 0
+_GUARDS, _WORN = Guards(0.02), 0.01  # no logarithm of 0
 _MARGIN = 1.0  # of half the range of a coordinate, over which a map fades out beyond it
 _STEP, _KELVIN = 1e-5, 1e-3  # of differences of the factor on friction, relative and in temperature
 
@@ -34,28 +33,24 @@ class Here(NamedTuple):
 
 def coordinates(case: Case, contact: MeanContact) -> tuple[float, ...]:
     """Return where a loaded contact lies, by what the regression level says of it; see `COORDINATES`."""
-    op, share = case.op, contact.load_ratio
+    op = case.op
     first, second = case.sides
-    mean = max(0.5 * abs(op.speed_1 + op.speed_2), _NONE)
+    mean = max(0.5 * abs(op.speed_1 + op.speed_2), NONE)
     along = 0.5 * (op.speed_1 + op.speed_2)
     faster = (op.speed_2 - op.speed_1 if case.scene.rougher else op.speed_1 - op.speed_2) / math.copysign(mean, along)
-    oil = abs(contact.fluid) / (max(1.0 - share, _NONE) * op.load)
     new = math.hypot(first.surface.rms, second.surface.rms)
+    slide, oil, clearance = abs(op.speed_1 - op.speed_2), abs(contact.fluid), contact.gap / contact.sigma
     return (
-        math.log(max(contact.gap / contact.sigma, _THIN)),
-        math.log(abs(op.speed_1 - op.speed_2) / mean + _SLIP),
-        math.log(case.pressed),
-        share,
-        math.log(oil + _OIL),
+        *place_of(_GUARDS, clearance, mean, slide, case.pressed, contact.load_ratio, oil, op.load),
         contact.cover,
         math.log(contact.sigma / new),
         math.log(mean),
         op.inlet_temperature,
         contact.tribofilms[0].raised / new,
         contact.tribofilms[1].raised / new,
-        math.log(contact.tribofilms[0].solid / max(first.surface.rms, _NONE) + _WORN),
-        math.log(contact.tribofilms[1].solid / max(second.surface.rms, _NONE) + _WORN),
-        faster / (abs(faster) + _SLIP),
+        math.log(contact.tribofilms[0].solid / max(first.surface.rms, NONE) + _WORN),
+        math.log(contact.tribofilms[1].solid / max(second.surface.rms, NONE) + _WORN),
+        faster / (abs(faster) + SLIP),
         math.log(case.unit_hertz.a * case.growth[0] / case.sides[case.scene.rougher].surface.length),
     )
 
@@ -108,7 +103,7 @@ def here(chart: Map, case: Case, contact: MeanContact) -> Here:
     op = case.op
     everything = coordinates(case, contact)
     place = [everything[k] for k in chart.picked]
-    slip = abs(op.speed_1 - op.speed_2) / max(0.5 * abs(op.speed_1 + op.speed_2), _NONE)
+    slip = abs(op.speed_1 - op.speed_2) / max(0.5 * abs(op.speed_1 + op.speed_2), NONE)
     scaled = scaled_to(chart, place)
     least, most = chart.radii
     radius, ellipse = case.shape.radius_x, case.shape.radii[1:] == case.scene.shape().radii[1:]
@@ -153,19 +148,21 @@ def _half_width(chart: Map, output: int, place: Here, wide: float, trust: float,
     return trust * math.hypot(alone, shared) + (1.0 - trust) * stated
 
 
-def corrected(chart: Map, case: Case, contact: MeanContact) -> MeanContact:
-    """Return a contact of the regression level, corrected, with the errors that are left.
+@dataclass(frozen=True)
+class ByMap:
+    """The correction by a map. The derivatives of friction are those of `slopes`."""
 
-    Where that level is exact, it stands as it is. The derivatives of friction are those of `slopes`.
-    """
-    raw = half_widths(case, contact)
-    own = (raw["error_friction"], raw["error_film"], raw["error_load_ratio"])
-    if exact(case, contact):
-        return contact._replace(stated=Stated(*own, 1.0))
-    place = here(chart, case, contact)
-    found = told(chart, place, contact.load_ratio)
-    better = moved(contact, found, max(case.op.bodies))
-    return better._replace(stated=Stated(*half_widths_of(chart, place, own), place.trust * place.slides))
+    chart: Map
+
+    def at(self, case: Case, contact: MeanContact, stated: Three) -> tuple[Deviation, Stated]:
+        """Return what a contact deviates by, and the errors that are left."""
+        place = here(self.chart, case, contact)
+        left = half_widths_of(self.chart, place, stated)
+        return told(self.chart, place, contact.load_ratio), Stated(*left, place.trust * place.slides)
+
+    def contact(self, case: Case, tribofilms: Tribofilms) -> MeanContact:
+        """Return the contact of a case under tribofilms, corrected."""
+        return corrected(self, case, evaluate(case, tribofilms, derivatives=False))
 
 
 def slopes(chart: Map, case: Case, tribofilms: Tribofilms) -> Four:
@@ -177,7 +174,7 @@ def slopes(chart: Map, case: Case, tribofilms: Tribofilms) -> Four:
     if exact(case, contact):
         return contact.derivatives
     force, factor = contact.solid + contact.fluid, friction_factor(chart, here(chart, case, contact))
-    faster = math.copysign(_STEP * max(abs(op.speed_1), abs(op.speed_2), _NONE), op.speed_1 - op.speed_2)
+    faster = math.copysign(_STEP * max(abs(op.speed_1), abs(op.speed_2), NONE), op.speed_1 - op.speed_2)
     warm_1, warm_2 = op.body_temperature_1, op.body_temperature_2
     beside = (
         (faster, replace(op, speed_1=op.speed_1 + faster)),

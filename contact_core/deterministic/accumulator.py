@@ -3,9 +3,9 @@
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..film.instant import Grid
+from ..kernels.arrays import Array
 from ..scene import Case
 from ..state import ContactState, RangeFlag, flag_of_scuffing
 from ..surfaces.patches import on_patches
@@ -14,8 +14,6 @@ from .instant import ContactFields
 from .observed import instant_flags, observed
 from .rolling import beyond_grid, couple
 from .subsurface import Traction, traction_of
-
-Array = NDArray[np.float64]
 
 _LEAST_SHARE = 1e-12  # of a touching area, that stresses are divided by
 MANY = 0.1  # share of unconverged solutions that raises a flag

@@ -9,16 +9,14 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..kernels.arrays import Array
 from ..kernels.damage import accumulated, pits_of
 from ..kernels.load_cycle import Cycle
 from ..scene import Case, Scene, Side
 from ..state import Below, Body, ContactState
 from ..surfaces.patches import track_rows
 from .subsurface import Pass, Traction
-
-Array = NDArray[np.float64]
 
 _OF_ROWS = ("pressure", "shear", "damage_1", "damage_2", "per_cycle_1", "per_cycle_2")
 _SCALED = 1.01  # of stresses, to see how steeply damage rises with them

@@ -6,12 +6,10 @@ Body 1 slides over body 2 at (u_s - spin y, spin x). Every shear stress points t
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..film.instant import Grid
+from ..kernels.arrays import Array
 from ..scene import Case, OperatingPoint
-
-Array = NDArray[np.float64]
 
 _STEP = 1e-5  # relative, of the differences that give a viscosity's slopes
 

@@ -4,16 +4,14 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..kernels.arrays import Array
 from ..laws.tribofilm import DOSES, Passes, thickness
 from ..scene import Case, Scene, Side
 from ..state import Body, ContactState
 from ..surfaces.patches import across_track, middle_rows, surface_now, track_rows
 from ..surfaces.roughness import groove_free, rms_roughness
 from .accumulator import Accumulator
-
-Array = NDArray[np.float64]
 
 
 def with_exposure(case: Case, side: Side, state: ContactState, sums: Accumulator, alike: float) -> Body:

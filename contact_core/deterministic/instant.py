@@ -3,11 +3,11 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import SceneError
 from ..film import Convergence, Deterministic
 from ..film.instant import FilmSolution, FilmState, Grid, Instant, Step
+from ..kernels.arrays import Array
 from ..kernels.surface_give import SurfaceGive
 from ..laws.temperatures import Temperatures
 from ..scene import Case, OperatingPoint, Scene
@@ -15,8 +15,6 @@ from ..state import ContactState
 from ..surfaces.patches import FacingSurfaces, added_friction, facing_surfaces
 from .friction import Film, Friction, friction
 from .oil_temperature import left_behind, sheared, solve_flow, warmed
-
-Array = NDArray[np.float64]
 
 _AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
 _SLIDE = 0.5  # way by which rough bodies slide past each other in an instant, at most, over their correlation length
@@ -138,8 +136,7 @@ def solve_instant(
 ) -> ContactFields:
     """Solve a case at one instant; as `solve`, for an operating point that has been checked."""
     scene = case.scene
-    level, full = scene.film, scene.tribofilm.full_thickness
-    assert isinstance(level, Deterministic)
+    full = scene.tribofilm.full_thickness
     faced = facing_surfaces(scene, state, moving=transient is not None)
     grid = scene.grid(state.rows).shifted(state.window)
     film_1, film_2 = faced.tribofilms
@@ -156,16 +153,7 @@ def solve_instant(
             how = transient.moved, transient.order, transient.thorough
             step = Step(transient.dt, *how, transient.shifted, transient.rolled, transient.passing)
         most = transient.iterations if transient else None
-        film = solve_flow(
-            case,
-            grid,
-            cover,
-            now,
-            before,
-            lambda now, start: level.solve(now, grid, start, step, most),
-            level.tolerance,
-            oxide,
-        )
+        film = solve_flow(case, grid, cover, now, before, step, most, oxide)
     rubbed = sheared(grid, film, cover, case.op.inlet_temperature, oxide)
     found, stress, warm, shortfall = warmed(case, rubbed, before, heated=not transient or transient.heated)
     convergence = film.convergence | {

@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import OperatingPointError
+from ..kernels.arrays import Array
 from ..scene import Case, OperatingPoint, Scene, Side
 from ..state import Body, ContactState, flag_of_scuffing
 from .accumulator import Accumulator
@@ -26,7 +26,6 @@ from .observed import observed
 from .rolling import beyond_grid
 from .transient import begin, follow, node_speed
 
-Array = NDArray[np.float64]
 Duty = Callable[[float], OperatingPoint]
 
 _ROUNDING = 1e-6  # of a node: a step may be longer than a node by so much

@@ -6,21 +6,19 @@ pressure alone; where it is "local", that of the local temperature, thinned by t
 surfaces raise either one with the local gap.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..film.instant import FilmSolution, FilmState, Grid, Instant
-from ..film.thinning import eased, recalled, remembering, solve_thinning
+from ..film import Deterministic
+from ..film.instant import FilmSolution, FilmState, Grid, Instant, Step
+from ..film.thinning import Agreement, eased, recalled, remembering
+from ..kernels.arrays import Array
 from ..laws.heat import NoHeat
 from ..laws.temperatures import Rubbing, Temperatures
 from ..reference import FILM_OF_VISCOSITY, inlet_shear_factor
 from ..scene import Case
 from .friction import Film, Shear, shear, sliding
-
-Array = NDArray[np.float64]
 
 _ROUNDS = 30  # of shear and temperature of a steady film, at most
 _UNDER_RELAXATION = 0.7  # of a change of temperature
@@ -99,30 +97,35 @@ def solve_flow(
     cover: Array,
     now: Instant,
     before: FilmState | None,
-    solve: Callable[[Instant, FilmState | None], FilmSolution],
-    tolerance: float,
+    step: Step | None,
+    most: int | None,
     oxide: Array | None = None,
 ) -> FilmSolution:
-    """Return the film of an instant with the flow that the scene asks for; `solve` solves it for one state of the oil.
+    """Return the film of an instant with the flow that the scene asks for, by at most so many iterations.
 
     A march takes the oil as the instant before has left it; a steady film (`before` None) repeats until both agree.
     """
-    inlet = inlet_ease(case)
+    level, inlet = case.scene.film, inlet_ease(case)
+    assert isinstance(level, Deterministic)
     if inlet != 1.0:
         now = replace(now, ease=np.full(grid.shape, inlet))
     oil = case.scene.lubricant
     as_at_inlet = oil.flow == "newtonian" and not oil.double_layer.acts
-    if as_at_inlet or now.dry or (not case.entrained and before is None):
-        return solve(now, before)
-    if before is not None:
-        known = oil.flow == "local" or before.ease.size > 1
-        return solve(recalled(now, before) if known else now, before)
-
-    def ease(now: Instant, found: FilmSolution) -> Instant:
+    steady = before is None and not as_at_inlet and not now.dry and case.entrained
+    if before is not None and not as_at_inlet and not now.dry and (oil.flow == "local" or before.ease.size > 1):
+        now = recalled(now, before)
+    found = level.solve(now, grid, before, step, most)
+    if not steady:
+        return found
+    agreement = Agreement(level.tolerance)
+    while agreement.asks_for_more(found):
         film = warmed(case, sheared(grid, found, cover, case.op.inlet_temperature, oxide), None)[0]
-        return _worked(case, now, found, film)
-
-    return solve_thinning(now, solve, ease, tolerance)
+        then = _worked(case, now, found, film)
+        if then is now:
+            break
+        now = agreement.towards(now, then)
+        found = level.solve(now, grid, found.state, step, most)
+    return agreement.film(found)
 
 
 def _worked(case: Case, now: Instant, found: FilmSolution, film: Film) -> Instant:

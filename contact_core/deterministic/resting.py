@@ -11,16 +11,14 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..film import Deterministic
+from ..kernels.arrays import Array
 from ..scene import Case, Side
 from ..state import Body, ContactState
 from ..surfaces.patches import bare_heights, heights_of, on_grid, on_patches, patch_nodes
 from .growth_and_wear import area_of_node, wear_speed, wear_volume_rate
 from .instant import instant_of
-
-Array = NDArray[np.float64]
 
 _SCAR = 30e-9  # m: control.change over it is the part by which a scar may grow in a block
 

@@ -15,13 +15,11 @@ Source: Biboulet & Houpert, Proc. IMechE J 224 (2010) 765 and 777, doi:10.1243/1
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..film.instant import Grid
+from ..kernels.arrays import Array
 from ..scene import Case
 from .oil_temperature import inlet_ease
-
-Array = NDArray[np.float64]
 
 
 def couple(grid: Grid, gap: Array, fluid: Array) -> float:

@@ -9,10 +9,10 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..film import Deterministic
 from ..film.shared import subsurface
+from ..kernels.arrays import Array
 from ..kernels.load_cycle import Cycle, cycle_of
 from ..kernels.stress_measures import von_mises
 from ..laws.stress import OF_STRESS, ratios, risk, share_down_to
@@ -22,7 +22,6 @@ from ..state import ContactState
 from ..surfaces.patches import patch_nodes, track_rows
 from .instant import ContactFields
 
-Array = NDArray[np.float64]
 Places = tuple[int, int]
 
 

@@ -4,17 +4,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..errors import FilmTooWideError, OperatingPointError
 from ..film import Deterministic
+from ..kernels.arrays import Array
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
 from ..surfaces.patches import facing_films, on_patches, patch_nodes
 from .instant import ContactFields, Transient, solve, solve_instant
 
-Array = NDArray[np.float64]
 Found = tuple[ContactState, ContactFields]
 
 _ITERATIONS = 200  # of an instant, at most

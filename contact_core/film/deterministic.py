@@ -3,16 +3,12 @@
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..kernels.arrays import Array
 from ..laws.base import Rheology, Tribofilm
 from ..laws.equations import Equations, OfShape
 from ..laws.load_sharing import FittedSharing
 from ..quantities import parameter
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
-
-Array = NDArray[np.float64]
 
 _GOVERNING = (
     Equations(

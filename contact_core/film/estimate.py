@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..kernels.arrays import Array
 from .grid_steps import area_by_chance
 from .instant import FilmSolution, Grid, Instant, Settings
 from .outputs import film_outputs
@@ -105,7 +105,7 @@ def solve_with_estimate(
     return found, values, errors
 
 
-def between_nodes(gap: NDArray[np.float64]) -> float:
+def between_nodes(gap: Array) -> float:
     """Return by how much nodes miss the smallest gap [m] about.
 
     Half of what a parabola rises on the way to its nearest nodes, from half way between them along both axes. The

@@ -4,15 +4,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..kernels.arrays import Array, Mask
 from ..kernels.convergence import Convergence
 from ..kernels.surface_give import SurfaceGive
 from ..laws.asperity_layer import AsperityLayer
 from ..shapes import Shape
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)

@@ -1,13 +1,10 @@
 """The outputs of a film, from its fields. `quantities` says which mean each of them is."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..kernels.arrays import Array, Mask
 from ..reference import Hertz
 from .instant import FilmState, Grid
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 
 def disc(grid: Grid, hertz: Hertz) -> Mask:

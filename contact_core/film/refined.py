@@ -13,12 +13,11 @@ import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
+from ..kernels.arrays import Array
 from .estimate import OnGrid, Outputs, stated_errors_of_film
 from .grid_steps import GridStep
 from .instant import FilmState, Grid, Instant, Settings
 from .routes import solve_film
-
-Array = NDArray[np.float64]
 
 _RELATIVE, _ABSOLUTE = ("h_central", "h_c", "pressure_max"), ("contact_load_ratio", "contact_area_ratio")
 _TOLERANCE, _LARGEST_TOLERANCE = 0.1, 3e-3  # of the stopping rule, over the accuracy; and at most

@@ -10,9 +10,9 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ConvergenceError, FilmTooWideError
+from ..kernels.arrays import Array
 from ..kernels.dry import dry_solution
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed.advection import advected
@@ -31,8 +31,6 @@ from .scaled import Scaled
 from .slow_film import slow_film
 from .solutions import LOAD_ACCEPTED, dry, load_balance, solution
 from .starts import dry_start, lifted_start, shared_start
-
-Array = NDArray[np.float64]
 
 _ALL = (0.0, math.inf)
 _SEVERAL = (2, math.inf)
@@ -345,7 +343,7 @@ class _Solver:
             "held": (solve_held, _HELD_ITERATIONS),
         }[method]
         limits = settings.tolerance, min(most, settings.iterations)
-        return scaled.without_images(solve(scaled.surfaces, self.problem, scaled.with_images(start), *limits))
+        return scaled.images.removed(solve(scaled.surfaces, self.problem, scaled.images.iterate(start), *limits))
 
     def _start(self, name: str) -> Iterate | None:
         scaled, state = self.scaled, self.state

@@ -1,7 +1,7 @@
 """An instant of the film in the dimensionless units that the kernels work in."""
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
+from ..kernels.arrays import Array, Mask
 from ..kernels.far_field import far_field
 from ..kernels.giving_half_space import giving
 from ..kernels.half_space import HalfSpace
@@ -20,20 +21,40 @@ from .lengths import FAR_FIELD_BELOW, film_size, inlet_length
 from .shared import ENTRIES, half_space, tables
 from .slow_film import SlowFilm
 
-Array = NDArray[np.float64]
-
 _TABLE_TOP = 2e10  # Pa: no oil flows above
 _LEAST_EASE = 1e-6  # below it, oil does not flow
 _SLOWEST = 0.25  # unit of speeds, in nodes per time step: below it, squeezing dominates
 _FASTEST_CHANGE = 2.0  # of a film in a step, up to which it is of second order
 
 
+@dataclass(frozen=True)
+class Images:
+    """Rows as the kernels see them: a periodic grid's with images of the last before the first and the first after."""
+
+    periodic: bool
+
+    def of(self, field: NDArray[Any]) -> NDArray[Any]:
+        """Return a field on the rows of the kernels."""
+        return np.concatenate([field[-1:], field, field[:1]]) if self.periodic else field
+
+    def iterate(self, start: Iterate) -> Iterate:
+        """Return an iterate on them."""
+        return Iterate(self.of(start.pressure), self.of(start.fluid), self.of(start.solid), start.rigid)
+
+    def removed(self, found: Solution) -> Solution:
+        """Return a solution of the kernels on the rows of the grid."""
+        if not self.periodic:
+            return found
+        it, own = found.iterate, np.s_[1:-1]
+        iterate = Iterate(it.pressure[own].copy(), it.fluid[own].copy(), it.solid[own].copy(), it.rigid)
+        return replace(found, iterate=iterate, gap=found.gap[own].copy(), mass=found.mass[own].copy())
+
+
 class Scaled:
     """An instant in units of l (lengths), l^2 / radius_x (gaps) and p_H (a / l)^n (pressures; n = 2, for lines 1).
 
     l^2 = a^2 + 1.4 radius_x h is the size of the loaded zone: a of Hertz's contact along x, or the extent of a
-    film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one. On a
-    periodic grid the kernels get an image of its last row before the first, and of its first after the last.
+    film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one.
     The unit of speeds is that of entrainment; in a time `step` from a film `start` it is at least a quarter of a node
     per step, so that the film of slow bodies and of bodies at rest is of order one, too. For the film beyond the grid:
     `closing`, the speed [m/s] at which the bodies approach, and `apart`, their film [m]; None: that of smooth ones.
@@ -52,6 +73,7 @@ class Scaled:
         slow: SlowFilm | None = None,
     ) -> None:
         self.now, self.grid, self.settings, self.slow = now, grid, settings, slow
+        self.images = Images(grid.periodic)
         self.closing, self.apart = closing, apart
         self.step = step if start else None
         self.start = start if step else None
@@ -181,7 +203,7 @@ class Scaled:
     @cached_property
     def surfaces(self) -> HalfSpace:
         """The half space as the kernels see it, under surfaces that give way where they do."""
-        return giving(self.half_space, self.give and self.give.mapped(self._with_images))
+        return giving(self.half_space, self.give and self.give.mapped(self.images.of))
 
     def problem(self) -> Problem:
         """Return the problem that the kernels solve."""
@@ -191,7 +213,7 @@ class Scaled:
         mobility = self.size**3 * self.p_unit / (12.0 * viscosity * self.speed * now.shape.radius_x**2)
         edge, weight = self.beyond
         ease, thinned = self._oil(viscosity)
-        images = self._with_images
+        images = self.images.of
         weight = images(weight)
         conserving = now.conserving and self.slow is None  # what moves along conserves it anyway
         if self.grid.periodic:
@@ -227,7 +249,7 @@ class Scaled:
             depth=self.fade,
         )
 
-    def _empty(self, start: FilmState) -> NDArray[np.bool_]:
+    def _empty(self, start: FilmState) -> Mask:
         """Return the nodes whose oil had no pressure before; a flooded edge and all before a meniscus are full."""
         empty = start.fluid <= 0.0
         empty[:, : max(self.first, 1)] = self.now.supply is not None
@@ -238,24 +260,7 @@ class Scaled:
         if self.slow is None or self.start is None or self.start.gap.shape != self.grid.shape:
             return None
         gap = self.slow.carried(self.start.gap, self.step.rolled if self.step else 0) / self.h_unit
-        return self._with_images(np.maximum(gap, self.floor))
-
-    def _with_images(self, field: NDArray[Any]) -> NDArray[Any]:
-        """Return a field [ny, nx]; on a periodic grid with images of the last row before and the first after."""
-        return np.concatenate([field[-1:], field, field[:1]]) if self.grid.periodic else field
-
-    def with_images(self, start: Iterate) -> Iterate:
-        """Return an iterate on the rows of the kernels."""
-        images = self._with_images
-        return Iterate(images(start.pressure), images(start.fluid), images(start.solid), start.rigid)
-
-    def without_images(self, found: Solution) -> Solution:
-        """Return a solution of the kernels on the rows of the grid."""
-        if not self.grid.periodic:
-            return found
-        it, own = found.iterate, np.s_[1:-1]
-        iterate = Iterate(it.pressure[own].copy(), it.fluid[own].copy(), it.solid[own].copy(), it.rigid)
-        return replace(found, iterate=iterate, gap=found.gap[own].copy(), mass=found.mass[own].copy())
+        return self.images.of(np.maximum(gap, self.floor))
 
     @cached_property
     def first(self) -> int:

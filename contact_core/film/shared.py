@@ -6,14 +6,13 @@ from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..kernels.arrays import Array
 from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 
 if TYPE_CHECKING:
     from ..kernels.subsurface import Subsurface
 
-Array = NDArray[np.float64]
 
 ENTRIES = 16385  # of a table over 0 <= p <= hardness: relative error of the viscosity below 1e-4
 

@@ -14,13 +14,12 @@ from functools import lru_cache
 
 import numpy as np
 import scipy.ndimage
-from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
+from ..kernels.arrays import Array
 from ..shapes import Shape
 from .instant import FilmSolution, Grid, Instant, Settings
 
-Array = NDArray[np.float64]
 Solve = Callable[[Instant, Grid, Settings], FilmSolution]
 
 _PER_DOUBLING = 4.0  # loads and speeds, and

@@ -1,15 +1,11 @@
 """Solids that carry a load in dry contact, beside the pressure of oil: choice of the kernel."""
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..kernels.arrays import Array
 from ..kernels.dry import solve_dry
 from ..kernels.dry_asperities import solve_dry_asperities
 from ..kernels.dry_giving import solve_dry_giving
 from ..kernels.half_space import HalfSpace
 from ..kernels.surface_give import SurfaceGive
-
-Array = NDArray[np.float64]
 
 
 def pressed(

@@ -3,16 +3,14 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..kernels.arrays import Array
 from ..kernels.mixed.problem import Solution
 from .instant import FilmSolution, FilmState
 from .lengths import inlet_length, resolves_inlet
 from .outputs import disc
 from .scaled import Scaled
 from .starts import shared
-
-Array = NDArray[np.float64]
 
 LOAD_ACCEPTED = 1e-3  # relative error of the load, up to which a film is accepted
 _BEYOND_KNOWN = 0.05  # relative error of the formula for the load beyond the grid

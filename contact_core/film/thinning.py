@@ -20,15 +20,15 @@ Sources: Yang & Wen, J. Tribol. 112 (1990) 631, doi:10.1115/1.2920308 (generalis
 Cusano, J. Tribol. 109 (1987) 648 (an Eyring oil, in closed form).
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
+from ..kernels.arrays import Array
 from ..laws.base import Rheology
-from .instant import Array, FilmSolution, FilmState, Instant
+from .instant import FilmSolution, FilmState, Instant
 
 _STIFFEST = 1e30  # Pa: no stress of a Newtonian oil above matters
 _LEAST = (1e-4, 1e-3)  # pressed stress: share of the sheared one, and Pa. Below, the oil yields as at a vanishing one
@@ -136,36 +136,42 @@ def _log_ease(rheology: Any) -> Array:
     return np.log(rheology.ease(np.exp(_LOG_STRESS)))
 
 
-def solve_thinning(
-    now: Instant,
-    solve: Callable[[Instant, FilmState | None], FilmSolution],
-    ease: Callable[[Instant, FilmSolution], Instant],
-    tolerance: float,
-) -> FilmSolution:
-    """Return the steady film whose ease and thinning are consistent with it.
+class Agreement:
+    """How a steady film and its oil come to agree: solved again and again, each time with the oil of the film before.
 
-    It is solved again with those of the film before until it no longer changes.
-
-    `solve` an instant from a film state, or from nothing; `ease`: the instant with what a film of it makes of the oil,
-    itself if nothing, as by `eased`; `tolerance`: relative change of the film, weighted by pressure. The result
-    holds the oil it was solved with, and the iterations of all solutions. Without a film it is the first solution.
+    `tolerance`: relative change of the film, weighted by pressure.
     """
-    found = solve(now, None)
-    spent, change, part = found.iterations, np.inf, 1.0
-    for _ in range(_SOLUTIONS - 1):
-        next_one = ease(now, found)
-        if next_one is now:
-            return replace(found, iterations=spent)
-        now = _between(now, next_one, part)
-        before, found = found, solve(now, found.state)
-        last, change = change, _change(before, found)
-        spent += found.iterations
-        if change < tolerance * part:
-            return replace(found, iterations=spent)
-        if change > _SLOW * last:
-            part *= 0.5
-    why = f"the film changes with its oil by {change:.2g} in solution {_SOLUTIONS}, not below {tolerance:g}"
-    return replace(found, iterations=spent, converged=False, shortfall="; ".join(filter(None, (found.shortfall, why))))
+
+    def __init__(self, tolerance: float) -> None:
+        self._tolerance, self._part, self._change = tolerance, 1.0, np.inf
+        self._last: FilmSolution | None = None
+        self._spent = self._solutions = 0
+        self._holds = False
+
+    def asks_for_more(self, found: FilmSolution) -> bool:
+        """Take a solution; return True if another one is needed, and permitted."""
+        before, self._last = self._last, found
+        self._spent += found.iterations
+        self._solutions += 1
+        if before is not None:
+            last, self._change = self._change, _change(before, found)
+            self._holds = self._change < self._tolerance * self._part
+            if self._change > _SLOW * last:
+                self._part *= 0.5
+        return not self._holds and self._solutions < _SOLUTIONS
+
+    def towards(self, now: Instant, then: Instant) -> Instant:
+        """Return the instant to solve next: now, with some or all of the change to its oil `then`."""
+        return _between(now, then, self._part)
+
+    def film(self, found: FilmSolution) -> FilmSolution:
+        """Return the last solution, with the oil it was solved with and the iterations of all."""
+        found = replace(found, iterations=self._spent)
+        if self._holds or self._solutions < _SOLUTIONS:
+            return found
+        change = f"the film changes with its oil by {self._change:.2g} in solution {_SOLUTIONS}"
+        why = f"{change}, not below {self._tolerance:g}"
+        return replace(found, converged=False, shortfall="; ".join(filter(None, (found.shortfall, why))))
 
 
 def _between(now: Instant, then: Instant, part: float) -> Instant:

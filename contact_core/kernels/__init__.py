@@ -21,6 +21,7 @@
     anderson        acceleration of a fixed point
     grids           between a grid and that of half its nodes
     convergence     the record of how a solution went
+    arrays          types of arrays, for all rooms
     compiled        the decorator of all compiled kernels
     cache           folder of compiled kernels
 

@@ -4,11 +4,9 @@ Source: Walker & Ni, SIAM J. Numer. Anal. 49 (2011) 1715, doi:10.1137/10078356X.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import Array
 from .compiled import jit
-
-Array = NDArray[np.float64]
 
 _CHUNK = 512  # entries of the vectors that are treated together, so that they stay in the fastest cache
 _REGULAR = 1e-6

@@ -9,11 +9,9 @@ gain are 2 to 5 % off, of 24 layers 1 %; a step cut into many pieces blurs the d
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ContactError
-
-Array = NDArray[np.float64]
+from .arrays import Array
 
 
 def accumulated(damage: Array, depths: Array, gained: Array, removed: Array) -> Array:

@@ -16,12 +16,11 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from .arrays import Array, Mask
 from .dry_faces import Contact
 from .half_space import Convolution, HalfSpace
 
-Array = NDArray[np.float64]
 Window = tuple[int, int, int, int]  # first row, end of rows, first column, end of columns
 
 _COARSEST = 33  # nodes along the longer side of the first grid
@@ -176,7 +175,7 @@ def _roomy(ends: Sequence[int], shape: tuple[int, ...], periodic: bool) -> Windo
     return found[0], found[1], found[2], found[3]
 
 
-def _ends(chosen: NDArray[np.bool_]) -> Window:
+def _ends(chosen: Mask) -> Window:
     """Return the smallest window that holds all chosen nodes."""
     rows, columns = np.flatnonzero(chosen.any(axis=1)), np.flatnonzero(chosen.any(axis=0))
     return int(rows[0]), int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1

@@ -8,15 +8,12 @@ each node alone.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import Array, Mask
 from .dry import solve_dry
 from .half_space import HalfSpace
 from .mixed.asperities import REACH
 from .surface_give import SurfaceGive
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 _START_TOLERANCE = 1e-2  # of the contact without asperities
 _SPREAD = 2.0  # depths by which the bodies of the start are further apart than those of that contact

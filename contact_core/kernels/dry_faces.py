@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import Array
 from .compiled import jit
 from .half_space import Convolution, HalfSpace
 
-Array = NDArray[np.float64]
 States = NDArray[np.int8]
 
 # a pressure is 0, between its bounds, or at its cap; or the node is shut, as its cap is 0

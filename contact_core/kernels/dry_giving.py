@@ -4,13 +4,11 @@ The pressure minimises the energy of `dry` and that of `SurfaceGive`. Both are c
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import Array
 from .dry import dry_solution
 from .half_space import HalfSpace
 from .surface_give import SurfaceGive
-
-Array = NDArray[np.float64]
 
 _STEPS = 30  # of Newton's method, at most
 _HALVINGS = 8

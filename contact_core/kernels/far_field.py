@@ -9,9 +9,8 @@ doi:10.1115/1.3453329. Lengths in the unit of the problem, gaps in its square ov
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from .arrays import Array
 
 _THINNEST = 1e-9  # ratio of films below which the film at the edge counts as infinite
 

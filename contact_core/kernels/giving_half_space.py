@@ -1,12 +1,8 @@
 """An elastic half space under a surface that gives way node by node."""
 
-import numpy as np
-from numpy.typing import NDArray
-
+from .arrays import Array
 from .half_space import Convolution, HalfSpace
 from .surface_give import SurfaceGive
-
-Array = NDArray[np.float64]
 
 
 class GivingHalfSpace(HalfSpace):

@@ -13,7 +13,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from .arrays import Array
 
 _MARGIN = 16
 _LOVE_UP_TO = 64  # cells, from where on two terms of the expansion of a cell's potential are as exact

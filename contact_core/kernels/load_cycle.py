@@ -12,11 +12,9 @@ Beretta, Wear 260 (2006) 567.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ContactError
-
-Array = NDArray[np.float64]
+from .arrays import Array
 
 
 class Cycle(NamedTuple):

@@ -15,9 +15,9 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from .arrays import Array, Mask
 from .half_space import influence
 
-Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
@@ -198,7 +198,7 @@ class Partition:
 def partition(
     dissipation: Array,
     resistance: Array,
-    inside: NDArray[np.bool_],
+    inside: Mask,
     difference: float,
     surfaces: tuple[MovingSurface, MovingSurface],
     tolerance: float = 1e-7,

@@ -1,9 +1,8 @@
 """Measures of stress tensors [6, ...]: components xx, yy, zz, yz, xz, xy, tension positive. Results in their unit."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from .arrays import Array
 
 
 def hydrostatic(stress: Array) -> Array:

@@ -19,10 +19,10 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from .arrays import Array
 from .compiled import jit
 from .half_space import even_fast_length
 
-Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
 
 _LONG = 1e14  # cells: a rectangle of this length is an infinite strip

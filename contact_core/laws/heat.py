@@ -11,6 +11,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from ..kernels.arrays import Array, Mask
 from ..kernels.moving_source import MovingSurface, partition
 from ..quantities import parameter
 from .base import Bulk, Heat
@@ -19,8 +20,6 @@ from .elementary import Numbers, sqrt
 from .equations import Equations
 from .temperatures import Rubbing, Temperatures
 
-Array = NDArray[np.float64]
-Nodes = NDArray[np.bool_]
 Pair = tuple[float, float]
 
 _AS_THE_OIL = OilBulk()
@@ -33,7 +32,7 @@ def _flat(bodies: Pair, into_1: float, into_2: float) -> Temperatures:
     return Temperatures(*bodies, 0.5 * (bodies[0] + bodies[1]), into_1, into_2, 0.0, True)
 
 
-def _spots(solid: Nodes, *, periodic: bool) -> tuple[NDArray[np.int32], int]:
+def _spots(solid: Mask, *, periodic: bool) -> tuple[NDArray[np.int32], int]:
     """Return the number of the connected set of each node, from 1 (0: none), and their count."""
     spots, count = scipy.ndimage.label(solid)
     meeting = (spots[0] > 0) & (spots[-1] > 0)

@@ -1,6 +1,7 @@
 """Load shared between solids and oil of rough bodies: curves fitted to deterministic solutions."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
 from math import inf
 from typing import ClassVar, NamedTuple
 
@@ -249,22 +250,10 @@ class FittedSharing:
     )
     exposure_spread_smoother: float = parameter("", "V of the smoother body", above=0.0, most=0.99, default=0.801)
 
-    def load_ratio(
-        self,
-        clearance: Numbers,
-        layers: Numbers,
-        flattening: Numbers,
-        below: Numbers,
-        slip: Numbers,
-        pressed: Numbers,
-    ) -> Numbers:
-        """Return contact_load_ratio at Z = `clearance`, for a film of smooth bodies `layers` layers thick."""
-        return self.load_ratio_at(slip, self.parting(clearance, layers, flattening, below, pressed))
-
     def parting(
         self, clearance: Numbers, layers: Numbers, flattening: Numbers, below: Numbers, pressed: Numbers
-    ) -> "Parting":
-        """Return what parts the solids, at any slip; parameters as of `load_ratio`.
+    ) -> Parting:
+        """Return what parts the solids, at any slip.
 
         Oil between the asperities takes the load from what is below the grid; as Z grows, the asperities part.
         """
@@ -275,30 +264,22 @@ class FittedSharing:
         film = minimum(layers, _THICKEST) ** self.load_exponent * (flat**self.load_flattening * fine**self.load_below)
         return Parting(film, yielding, minimum(clearance, _THICKEST) ** 2)
 
-    def load_ratio_at(self, slip: Numbers, parting: "Parting") -> Numbers:
-        """Return contact_load_ratio at a slip."""
+    def load_ratio_at(self, slip: Numbers, parting: Parting) -> Numbers:
+        """Return W_c at a slip."""
         fastest = _FURTHER * self.FITTED["slip"][1]
         ease = (1.0 + minimum(slip, fastest)) ** self.load_slip * parting.yielding
         film, apart = minimum(parting.film * ease, _MOST), minimum(parting.apart, _MOST)
         return exp(-self.load_factor * film - self.load_parted * apart)
 
-    def area_ratio(self, load_ratio: Numbers, flattening: Numbers, below: Numbers) -> Numbers:
-        """Return contact_area_ratio where the solids carry `load_ratio` of the load."""
-        return self.dry_area(flattening, below) * load_ratio**self.area_exponent
-
     def dry_area(self, flattening: Numbers, below: Numbers) -> Numbers:
-        """Return contact_area_ratio where the solids carry all of the load."""
+        """Return A_c where the solids carry all of the load; elsewhere it is W_c^D times that."""
         return -expm1(-self.area_factor * flattening_together(flattening, below, _ALL_WAVES))
 
-    def film_ratio(self, dense: Numbers, load_ratio: Numbers, flattening: Numbers, layer: Numbers) -> Numbers:
-        """Return h_c / sigma at Z / rho = `dense` where the solids carry `load_ratio` of the load.
+    def films(self, dense: Numbers, flattening: Numbers, layer: Numbers) -> Films:
+        """Return h_c / sigma of solids that carry everything, and of oil that does, at Z / rho = `dense`.
 
         `layer` is Z / f, the height to which roughness below the grid reaches over sigma.
         """
-        return self.films(dense, flattening, layer).ratio(load_ratio)
-
-    def films(self, dense: Numbers, flattening: Numbers, layer: Numbers) -> "Films":
-        """Return h_c / sigma of solids that carry everything, and of oil that does; parameters as of `film_ratio`."""
         flat = (flattening / _FLATTENING) ** -0.75
         dry = self.film_dry * log1p(self.film_parted * (flat * flat)) / self.film_parted + self.film_layer * layer
         mixed = maximum(self.film_mixed * flat, dry)
@@ -380,7 +361,26 @@ class FittedSharing:
         return larger * ((first / larger) ** power + later) ** (1.0 / power)
 
 
+def _refitted(**values: float) -> Callable[[type], type]:
+    """Return a decorator that gives the constants of a class's base other values."""
+
+    def refitted(cls: type) -> type:
+        for f in fields(cls.__base__):  # type: ignore[arg-type]
+            if f.name in values:
+                cls.__annotations__[f.name] = f.type
+                setattr(cls, f.name, field(default=values[f.name], metadata=f.metadata))
+        return cls
+
+    return refitted
+
+
 @dataclass(frozen=True)
+@_refitted(
+    load_factor=0.134, load_exponent=1.45, load_flattening=1.42, load_below=0.0, load_slip=1.43, load_yield=0.796,
+    load_parted=0.704, area_factor=2.34, area_exponent=0.853, film_dry=0.902, film_parted=2.67, film_layer=1.06,
+    film_mixed=0.391, film_factor=0.919, film_exponent=1.4, oil_pressure_excess=3.45, oil_pressure_decay=0.56,
+    oil_pressure_power=0.0, oil_steepness=1.71, oil_kept=0.884, oil_spread=1.12,
+)  # fmt: skip
 class LineSharing(FittedSharing):
     """The law of `FittedSharing` with the constants of lines and rollers, fitted to the roughness of gear flanks."""
 
@@ -417,42 +417,6 @@ class LineSharing(FittedSharing):
         "exposure_rougher": FittedSharing.exposure_rougher,  # all of it: it is that of circles
     }
     WIDTHS: ClassVar[Widths] = Widths(0.47, 0.08, 0.21, 0.2, 0.16, 0.31, 0.36, 0.5)
-
-    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.134)
-    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.45)
-    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=1.42)
-    load_below: float = parameter("", "l, power of s_m", least=0.0, most=10.0, default=0.0)
-    load_slip: float = parameter("", "v, power of the sliding", least=0.0, most=5.0, default=1.43)
-    load_yield: float = parameter("", "y, power of what yields", least=0.0, most=5.0, default=0.796)
-    load_parted: float = parameter("", "b, of asperities that part", least=0.0, most=1e3, default=0.704)
-    area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.34)
-    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.853)
-    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.902)
-    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=2.67)
-    film_layer: float = parameter(
-        "", "H, part of the height of roughness below the grid that dry bodies keep", least=0.0, most=10.0, default=1.06
-    )
-    film_mixed: float = parameter(
-        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.391
-    )
-    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.919)
-    film_exponent: float = parameter("", "n", least=0.1, most=20.0, default=1.4)
-    oil_pressure_excess: float = parameter(
-        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=3.45
-    )
-    oil_pressure_decay: float = parameter(
-        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=0.56
-    )
-    oil_pressure_power: float = parameter("", "q, the more so of rougher bodies", least=0.0, most=5.0, default=0.0)
-    oil_steepness: float = parameter(
-        "", "w, how much more steep roughness raises it", least=0.0, most=5.0, default=1.71
-    )
-    oil_kept: float = parameter(
-        "", "c, friction of oil whose pressure is uneven, over that of even one", above=0.0, most=1.0, default=0.884
-    )
-    oil_spread: float = parameter(
-        "", "S, how far thick films spread the load beyond Hertz's contact", least=0.0, most=100.0, default=1.12
-    )
 
 
 LAWS: tuple[type[FittedSharing], ...] = (FittedSharing, LineSharing)

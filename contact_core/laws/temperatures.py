@@ -3,10 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Nodes = NDArray[np.bool_]
+from ..kernels.arrays import Array, Mask
+
 Pair = tuple[float, float]  # of body 1 and 2
 
 
@@ -16,8 +15,8 @@ class Rubbing:
 
     dissipation: Array  # heat of friction per area [W/m2]
     gap: Array  # [m]
-    solid: Nodes  # where solids touch
-    inside: Nodes  # under pressure
+    solid: Mask  # where solids touch
+    inside: Mask  # under pressure
     spacing: float  # of the grid [m]
     speeds: Pair  # of both surfaces along x, relative to the contact [m/s]
     bodies: Pair  # bulk temperatures [K]

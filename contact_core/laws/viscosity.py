@@ -9,14 +9,11 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..quantities import parameter
+from ..quantities import CELSIUS, parameter
 from .base import Viscosity
 from .elementary import Numbers, exp, log, log10, maximum, minimum
 from .equations import Equations
-
-Array = NDArray[np.float64]
 
 _P0 = 1.0 / 5.1e-9  # Pa
 _LN_ETA_INF = -9.67  # ln(6.31e-5 Pa s)
@@ -164,7 +161,7 @@ class Modulus:
         "K", "C, fall of ln(viscosity) by 1 / (D + T)", least=0.0, most=1e4, quantity="TemperatureDifference"
     )
     vogel_offset: float = parameter(
-        "K", "D, minus the temperature of solidification", least=-225.0, most=273.15, quantity="TemperatureDifference"
+        "K", "D, minus the temperature of solidification", least=-225.0, most=CELSIUS, quantity="TemperatureDifference"
     )
     modulus: float = parameter("Pa", "a1, inverse of the pressure coefficient, at T = 0 K", least=-1e9, most=1e9)
     modulus_slope: float = parameter("Pa/K", "a2, rise of that with temperature", least=0.0, most=1e7)

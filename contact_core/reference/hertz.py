@@ -7,9 +7,9 @@ from typing import ClassVar, Protocol
 
 import numpy as np
 import scipy  # its parts are loaded at their first use
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..kernels.arrays import Array, Mask
+
 Nodes = tuple[Array, Array]  # pressures over the largest [n, 1], their weights in the mean over the contact [n]
 
 _GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(10)
@@ -72,9 +72,9 @@ class Hertz:
         """Mean pressure over the contact area [Pa]."""
         return self.mean_share * self.pressure_max
 
-    def inside(self, x: Array, y: Array, share: float) -> NDArray[np.bool_]:
+    def inside(self, x: Array, y: Array, share: float) -> Mask:
         """Return the nodes within `share` of the half widths, [ny, nx], at x [nx], y [ny] about the centre [m]."""
-        within: NDArray[np.bool_] = (x[None, :] / self.a) ** 2 + (y[:, None] / self.b) ** 2 < share**2
+        within: Mask = (x[None, :] / self.a) ** 2 + (y[:, None] / self.b) ** 2 < share**2
         return within
 
     def gap(self, x: Array, y: Array, reduced_modulus: float) -> Array:
@@ -155,9 +155,9 @@ class HertzLine(Hertz):
         """Contact area [m2]."""
         return 4.0 * self.a * self.b
 
-    def inside(self, x: Array, y: Array, share: float) -> NDArray[np.bool_]:
+    def inside(self, x: Array, y: Array, share: float) -> Mask:
         """Return the nodes within `share` of the half widths, [ny, nx], at x [nx], y [ny] about the centre [m]."""
-        within: NDArray[np.bool_] = (np.abs(x) < share * self.a)[None, :] & (np.abs(y) < share * self.b)[:, None]
+        within: Mask = (np.abs(x) < share * self.a)[None, :] & (np.abs(y) < share * self.b)[:, None]
         return within
 
     def gap(self, x: Array, y: Array, reduced_modulus: float) -> Array:

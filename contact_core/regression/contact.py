@@ -10,16 +10,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..laws.load_sharing import sliding_ratio
 from ..scene import Case
 from .load_sharing import UNFITTED, Fit, Parted, Shares, Surfaces, parted, shared, surfaces_of
-from .oil import Law, MeanHeat, oil_shear
+from .oil import Law, MeanHeat, OilFriction
 from .smooth_film import KELVIN, LIGHTEST, SLOWEST, STEP, SmoothFilm, smooth_film
 from .surfaces import Tribofilms, composite_roughness, mean_cover
-
-Array = NDArray[np.float64]
 
 _WARMER = np.array([0.0, 0.0, 0.0, 0.0, KELVIN, 0.0])
 _TO_KNOW = 2  # points that all but the derivatives need
@@ -235,11 +232,9 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
     warmer, count = _WARMER[: len(points)], len(points)
     start = op.inlet_temperature + warmer
 
-    def friction(warm: Array) -> Array:
-        return kept * oil_shear(scene, hertz, pressures, rates, grips, warm)
-
+    oil = OilFriction(scene.lubricant.viscosity, scene.lubricant.rheology, hertz, kept, pressures, rates, grips)
     if not scene.heat.warms_film:
-        return friction(start).tolist(), None
+        return oil.force(start).tolist(), None
     solid, rubbing, areas, gaps = np.array([(p.solid, p.rubbing, p.area, p.shares.gap) for p in points]).T
     one, two, more, faster = op.speed_1, op.speed_2, 0.5 * further, _faster(case)
     first = np.array([one, one + more, one, one, one, one + faster][:count])
@@ -248,8 +243,8 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
     bodies = (one + warmer, two + warmer)
     conductivity = scene.lubricant.conductivity_under(hertz.mean_share * pressures)
     heat = MeanHeat.of(scene.heat, hertz, (first, second), bodies, areas, gaps, conductivity)
-    warm = heat.film(start, lambda film: np.abs((solid + friction(film)) * rubbing))
-    return friction(warm).tolist(), heat
+    warm = heat.film(start, oil, solid, rubbing)
+    return oil.force(warm).tolist(), heat
 
 
 def _spot(case: Case, shear: float, sliding: float) -> tuple[float, float]:

@@ -9,8 +9,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..kernels.arrays import Array, Mask
 from ..kernels.damage import accumulated, pits_of, worn_away
 from ..kernels.load_cycle import Cycle
 from ..scene import Case, Scene
@@ -20,8 +20,6 @@ from .contact import MeanContact
 from .outputs import run_in
 from .stress import stressed
 from .surfaces import Means
-
-Array = NDArray[np.float64]
 
 _LAG = 0.01  # of the first layer's depth: wear below that waits
 _FEWEST = 1.0 / 64.0  # part of a step within which classes that fail count as failing together
@@ -131,7 +129,7 @@ def _pitted(worst: Array, broken: Array, rate: Array) -> Array:
     Within the worst class that has not, the failed part is taken to grow from its upper end in proportion to its
     damage, from what that was when the class above failed.
     """
-    failed: NDArray[np.bool_] = broken > 0.0
+    failed: Mask = broken > 0.0
     share = np.asarray(failed @ WEIGHTS, np.float64)
     k = WEIGHTS.size - 1 - np.argmin(failed[:, ::-1], axis=1)
     j, above = np.arange(k.size), np.minimum(k + 1, WEIGHTS.size - 1)

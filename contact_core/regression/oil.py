@@ -4,14 +4,12 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
-from ..laws.base import Heat
+from ..kernels.arrays import Array
+from ..laws.base import Heat, Rheology
 from ..reference import Hertz
-from ..scene import Scene
 
-Array = NDArray[np.float64]
 Pair = tuple[Array, Array]  # of body 1 and 2
 # laws take anything that broadcasts: plain floats, which are faster than arrays of one, and arrays of temperatures
 Law = Callable[..., Any]
@@ -22,18 +20,29 @@ _ROUGH = 1.28
 _SETTLED = 1e-8  # misfit that ends them, over the rise and 1 K
 
 
-def oil_shear(scene: Scene, hertz: Hertz, pressures: Array, rates: Array, grips: Array, temperatures: Array) -> Array:
-    """Return the mean shear stress [Pa] of oil under Hertz's pressure.
+class OilFriction(NamedTuple):
+    """Friction of the oil under Hertz's pressure at several points, one row of the arrays each, at any temperature."""
 
-    `pressures` are the largest at each point, `grips` the shares of the limiting stress (`FilmBlend.grip`).
-    """
-    parts, weights = hertz.pressure_nodes
-    local = parts * pressures
-    viscosity: Law = scene.lubricant.viscosity
-    rheology = scene.lubricant.rheology
-    newtonian = viscosity(local, temperatures) * rates
-    shear: Array = weights @ rheology(newtonian, local * grips * rheology.limiting_left(temperatures))
-    return shear
+    viscosity: Law
+    rheology: Rheology
+    hertz: Hertz
+    areas: Array  # on which the oil carries load, times the share of its friction that uneven pressure keeps [m2]
+    pressures: Array  # largest [Pa]
+    rates: Array  # of shear [1/s]
+    grips: Array  # share of the limiting stress
+
+    def shear(self, temperatures: Array) -> Array:
+        """Return the mean shear stress [Pa] at temperatures of the oil [K]."""
+        parts, weights = self.hertz.pressure_nodes
+        local = parts * self.pressures
+        newtonian = self.viscosity(local, temperatures) * self.rates
+        rheology = self.rheology
+        shear: Array = weights @ rheology(newtonian, local * self.grips * rheology.limiting_left(temperatures))
+        return shear
+
+    def force(self, temperatures: Array) -> Array:
+        """Return the friction [N]."""
+        return self.areas * self.shear(temperatures)
 
 
 class MeanHeat(NamedTuple):
@@ -71,16 +80,17 @@ class MeanHeat(NamedTuple):
         one, two = self.conductance_1, self.conductance_2
         return (power / self.areas + one * self.body_1 + two * self.body_2) / (one + two)
 
-    def film(self, start: Array, power: Callable[[Array], Array]) -> Array:
+    def film(self, start: Array, oil: OilFriction, solid: Array, rubbing: Array) -> Array:
         """Return the temperature [K] of the oil at which its own friction makes it that warm, from a guess.
 
+        `solid`: friction of the solids [N]; `rubbing`: sliding speed [m/s].
         By secants in a bracket: the warmer, the less friction. Raises ConvergenceError if it cannot be found.
         """
         low = self._surfaces(np.zeros_like(start))
         high = np.full_like(start, np.inf)
         film, before, missing_before = start, start, np.zeros_like(start)
         for count in range(_ROUNDS):
-            heat = power(film)
+            heat = np.abs((solid + oil.force(film)) * rubbing)
             missing = self._surfaces(heat) + heat / self.areas * self.across - film
             if np.abs(missing).max() <= _SETTLED * (1.0 + float(np.abs(film - start).max())):
                 return film

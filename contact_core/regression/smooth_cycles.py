@@ -9,13 +9,11 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..kernels.arrays import Array, Indices
 from ..kernels.load_cycle import cycle_of
 from ..kernels.stress_measures import von_mises
 from ..scene.records import POISSON
-
-Array = NDArray[np.float64]
 
 _DEPTHS = np.geomspace(0.004, 12.0, 48)  # over the half width along x
 _LOGS = np.log(_DEPTHS)
@@ -60,7 +58,7 @@ def _place(place: float, size: int) -> tuple[int, float]:
     return k, min(max(place - k, 0.0), 1.0)
 
 
-def _places(places: Array, size: int) -> tuple[NDArray[np.int64], Array]:
+def _places(places: Array, size: int) -> tuple[Indices, Array]:
     k = np.minimum(np.maximum(places, 0.0).astype(np.int64), size - 2)
     return k, np.minimum(np.maximum(places - k, 0.0), 1.0)
 

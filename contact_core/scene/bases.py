@@ -10,9 +10,8 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any
 
-from ..errors import SceneError
+from ..errors import SceneError, did_you_mean
 from ..laws.viscosity import AstmD341
-from .toml import did_you_mean
 
 USUAL = "mineral"
 # Gold's coefficient over measured secants from 0 to 0.2 GPa: 19 points of FVA 3, FVA 3A, M100 and PAO100, +-0.037

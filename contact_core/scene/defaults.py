@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, fields, replace
 from typing import Any, NamedTuple
 
-from ..errors import SceneError
+from ..errors import SceneError, did_you_mean
 from ..laws.viscosity import AstmD341
 from ..quantities import out_of_range
 from .bases import USUAL, Base, base_of
@@ -28,7 +28,7 @@ from .finishes import (
 )
 from .intervals import Ends, listed, of_sets
 from .records import ACCURACY
-from .toml import DATA_SHEET, did_you_mean, models_of, with_named_set
+from .toml import DATA_SHEET, models_of, with_named_set
 from .units import parse
 
 

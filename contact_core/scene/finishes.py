@@ -11,9 +11,9 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from ..errors import SceneError
+from ..errors import SceneError, did_you_mean
 from .surface import Surface
-from .toml import did_you_mean, flat, read_table
+from .toml import flat, read_table
 from .units import parse
 
 FILE = Path(str(files("contact_core"))) / "data" / "finishes.toml"

@@ -7,14 +7,12 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import SceneError
+from ..kernels.arrays import Array, Indices
 from ..quantities import parameter
 from . import units
 from .height_map import HeightMap, HeightStatistics, read, statistics_of
-
-Array = NDArray[np.float64]
 
 WIDEST = 1e-3  # m between neighbours
 _RMS = (2e-10, 1e-4)  # m: less is smooth, more is no roughness
@@ -91,7 +89,7 @@ class Heights:
         columns = z[:, [0, -1]].ravel() if z.shape[1] > 1 else z[:0].ravel()
         return np.concatenate([rows, columns])
 
-    def samples(self, axis: int, length: float) -> NDArray[np.int64]:
+    def samples(self, axis: int, length: float) -> Indices:
         """Return which rows (`axis` 0) or columns (1) of the file make up a periodic patch of a length [m].
 
         -1 stands for the flat surroundings. The lattice is stretched so that it fits, as a rule by less than half

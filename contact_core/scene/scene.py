@@ -10,7 +10,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from ..errors import SceneError
+from ..errors import SceneError, did_you_mean
 from ..film import Deterministic, Regression
 from ..film.regression import CORRECTIONS, with_map_found
 from ..quantities import LEVELS, out_of_range
@@ -25,7 +25,7 @@ from .operation import OperatingPoint
 from .other_names import with_correction
 from .problems import TableError
 from .surface import SEEDS
-from .toml import build, completed, did_you_mean, given, located
+from .toml import build, completed, given, located
 from .units import parse
 
 _TO_START = "All else has a default; `tribofmu new NAME` writes a scene to start from."

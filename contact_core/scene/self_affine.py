@@ -7,11 +7,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..kernels.arrays import Array
 from ..laws.asperity_layer import AsperityLayer
 from ..laws.equations import Equations
 from ..quantities import parameter
 from .heights import Heights
-from .surface import SEEDS, Array, RoughBody
+from .surface import SEEDS, RoughBody
 
 _MOST_WAVES = 2048  # of the cut-off in a domain: some 7 million modes, two seconds
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from types import NoneType
 from typing import Any, get_args, get_origin, get_type_hints
 
-from ..errors import SceneError
+from ..errors import SceneError, did_you_mean
 from ..film import FILMS
 from ..laws import SLOTS
 from ..laws.base import Model
@@ -142,13 +142,6 @@ def folder_of(source: str | Path) -> Path:
     """Return the folder of a scene's file, by name or path."""
     path = Path(source)
     return path.parent if path.suffix == ".toml" else Path(str(files("contact_core"))) / "data" / "scenes"
-
-
-def did_you_mean(word: str, choices: list[str]) -> str:
-    """Return " Did you mean ...?" if one of the choices looks like the word, else nothing."""
-    close = [name for name in choices if name.lower() == word.lower()]
-    close += difflib.get_close_matches(word, choices, n=1, cutoff=0.6)
-    return f" Did you mean '{close[0]}'?" if close else ""
 
 
 def file_like(path: Path) -> str:

@@ -4,10 +4,9 @@ from collections.abc import Mapping
 from dataclasses import Field
 from typing import Any
 
-from ..errors import SceneError
+from ..errors import SceneError, did_you_mean
 from ..quantities import numbers, with_numbers
 from .scene import Scene, checked
-from .toml import did_you_mean
 
 _INPUTS = ("geometry.radius_x", "geometry.radius_y")
 _PARTS = (

@@ -9,6 +9,7 @@ import re
 from functools import lru_cache
 
 from ..errors import SceneError
+from ..quantities import CELSIUS
 
 Dimension = tuple[int, int, int, int, int]
 
@@ -103,7 +104,7 @@ def parse(value: object, si_unit: str, name: str) -> float:
     if given in ("degC", "°C"):
         if si_unit != "K":
             raise SceneError(f"{name} = {value!r} is a temperature, but {name} is in {si_unit or 'no unit'}.")
-        return number + 273.15
+        return number + CELSIUS
     wanted = _without_angle(si_unit)
     if not given and any(wanted):
         raise SceneError(f"{name} = {value!r} has no unit. Write for example {_example(si_unit)}.")

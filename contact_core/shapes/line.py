@@ -5,11 +5,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..kernels.arrays import Array
 from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing, LineSharing
 from ..quantities import parameter
 from ..reference import Hertz, SmoothLine, dowson_line, hertz_line, line_film, rolling_beyond_line, rolling_line
-from .base import Array, Bodies, GridRecord, Shape, Viscosity
+from .base import Bodies, GridRecord, Shape, Viscosity
 from .equations import HELD_OPEN, PARABOLAS, REDUCED, ROLLING_NOTE
 
 SMOOTH_LINE = Equations(

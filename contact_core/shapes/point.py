@@ -5,11 +5,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..kernels.arrays import Array
 from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing
 from ..quantities import input_parameter
 from ..reference import Hertz, SmoothContact, hamrock_dowson, hertz_point, nvm_film, rolling_beyond_point, rolling_point
-from .base import Array, Bodies, GridRecord, Shape, Viscosity, combined
+from .base import Bodies, GridRecord, Shape, Viscosity, combined
 from .equations import HALF_SPACE, HELD_OPEN, LOAD_BALANCE, PARABOLAS, REDUCED, ROLLING_NOTE
 
 

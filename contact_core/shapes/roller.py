@@ -6,12 +6,13 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..kernels.arrays import Array
 from ..laws.base import Profile
 from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing, LineSharing
 from ..quantities import parameter
 from ..reference import Hertz
-from .base import Array, Bodies, GridRecord, Shape
+from .base import Bodies, GridRecord, Shape
 from .equations import HALF_SPACE, LOAD_BALANCE, PARABOLAS
 from .line import ROLLING_LINE, SMOOTH_LINE, Line, no_radius_y
 

@@ -12,10 +12,10 @@ from functools import cache, cached_property
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import StateError
 from ..film.instant import FilmState
+from ..kernels.arrays import Array
 from ..laws.tribofilm import thickness
 from ..scene import OperatingPoint, Scene
 from .below import Below
@@ -25,7 +25,6 @@ from .solved import Solved
 from .storage import Reader, numbers, stored
 from .trends import NAMES, Trends
 
-Array = NDArray[np.float64]
 _Record = TypeVar("_Record", "ContactState", "Outputs", "Mean", OperatingPoint)
 _MAGIC, _SCHEMA = b"tribofmu", 11
 _FEWEST = 100  # bytes that a header of schema 5 or before has at least

@@ -4,12 +4,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..kernels.arrays import Array, Indices
 from ..scene import Heights, HeightStatistics, Scene, statistics_of
 from .roughness import generate
-
-Array = NDArray[np.float64]
 
 _CHUNK = 2**20  # numbers under one spline
 
@@ -29,14 +27,14 @@ def laid(heights: Heights, size: tuple[float, float], nodes: tuple[int, int]) ->
     return z if flat else z - z.mean()
 
 
-def _cell_means(z: Array, samples: NDArray[np.int64], nodes: int, axis: int) -> Array:
+def _cell_means(z: Array, samples: Indices, nodes: int, axis: int) -> Array:
     """Return the means over the cells about each node along an axis, of what the chosen samples make up."""
     lines = np.moveaxis(z, axis, 1)
     chunks = np.array_split(lines, 1 + lines.shape[0] * samples.size // _CHUNK)
     return np.moveaxis(np.concatenate([_means_along(chunk, samples, nodes) for chunk in chunks]), 1, axis)
 
 
-def _means_along(lines: Array, samples: NDArray[np.int64], nodes: int) -> Array:
+def _means_along(lines: Array, samples: Indices, nodes: int) -> Array:
     from scipy.interpolate import CubicSpline  # here: it loads slowly, and few scenes have heights
 
     count = samples.size

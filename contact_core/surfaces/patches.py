@@ -12,12 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..kernels.arrays import Array, Mask
 from ..scene import Scene, SelfAffine, Surface
 from ..state import Body, ContactState
 from .laid import laid
 from .roughness import generate, groove_free
-
-Array = NDArray[np.float64]
 
 _ON_NODE = 1e-9  # part of a node that is none
 _MIDDLE = 2.0 / 3.0  # share of the track over which roughness is measured
@@ -28,8 +27,8 @@ class SurfaceNow(NamedTuple):
 
     heights: Array  # [m]
     roughness: Array  # heights free of the groove's shape [m]
-    track: NDArray[np.bool_]  # rows with |y| < b
-    middle: NDArray[np.bool_]  # rows with |y| < 2b/3, over which roughness is measured
+    track: Mask  # rows with |y| < b
+    middle: Mask  # rows with |y| < 2b/3, over which roughness is measured
 
 
 class FacingSurfaces(NamedTuple):
@@ -96,15 +95,15 @@ def across_track(scene: Scene, rows: int) -> Array | None:
     return across
 
 
-def track_rows(scene: Scene, rows: int, share: float = 1.0) -> NDArray[np.bool_]:
+def track_rows(scene: Scene, rows: int, share: float = 1.0) -> Mask:
     """Return the rows of the patches with |y| < share * b, at least the middle one."""
     b = scene.hertz(scene.operation.load).b
     y = scene.grid(rows).y
-    inside: NDArray[np.bool_] = np.abs(y) < max(share * b, 0.51 * scene.film.spacing)
+    inside: Mask = np.abs(y) < max(share * b, 0.51 * scene.film.spacing)
     return inside
 
 
-def middle_rows(scene: Scene, rows: int) -> NDArray[np.bool_]:
+def middle_rows(scene: Scene, rows: int) -> Mask:
     """Return the rows of the patches over which roughness is measured, |y| < 2b/3."""
     return track_rows(scene, rows, _MIDDLE)
 

@@ -4,9 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SceneError
+from ..kernels.arrays import Array, Indices, Mask
 from ..scene import SelfAffine, Surface
-
-Array = NDArray[np.float64]
 
 
 def generate(surface: Surface | SelfAffine, points: int, domain: float, body: int, period: int | None = None) -> Array:
@@ -50,7 +49,7 @@ def generate(surface: Surface | SelfAffine, points: int, domain: float, body: in
 
 def _modes(
     surface: Surface | SelfAffine, body: int, kx: int, step: float, step_y: float
-) -> tuple[NDArray[np.int64], NDArray[np.complex128]]:
+) -> tuple[Indices, NDArray[np.complex128]]:
     """Return the mode numbers ky of one kx >= 0 within the cutoff, and their waves (up to one common factor).
 
     Each kx has a random stream of its own, read in the order ky = 0, 1, -1, 2, -2 ..., so that a wave depends
@@ -72,12 +71,12 @@ def groove_free(heights: Array) -> Array:
     return heights - heights.mean(axis=1, keepdims=True)
 
 
-def rms_roughness(heights: Array, rows: NDArray[np.bool_] | slice) -> float:
+def rms_roughness(heights: Array, rows: Mask | slice) -> float:
     """Return the rms deviation [m] of the chosen rows from their common mean."""
     return float(np.std(heights[rows]))
 
 
-def mean_roughness(heights: Array, rows: NDArray[np.bool_] | slice) -> float:
+def mean_roughness(heights: Array, rows: Mask | slice) -> float:
     """Return the arithmetic mean deviation Ra [m] of the chosen rows from their common mean."""
     chosen = heights[rows]
     return float(np.abs(chosen - chosen.mean()).mean())

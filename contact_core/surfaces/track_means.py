@@ -5,8 +5,8 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..kernels.arrays import Array, Mask
 from ..laws.tribofilm import thickness
 from ..scene import Scene
 from ..state import Body, ContactState, Mean
@@ -14,7 +14,6 @@ from .damage_classes import folded_damage
 from .patches import bare_heights, middle_rows, roughness_of, track_rows
 from .roughness import rms_roughness
 
-Array = NDArray[np.float64]
 Means = tuple[Mean, Mean]
 
 _HALVINGS = 40  # of an interval of heights
@@ -113,9 +112,7 @@ def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) 
     return replace(body, **arrays, worn=now.worn, cycles=now.cycles)
 
 
-def _formed(
-    body: Body, changed: dict[str, Array], track: NDArray[np.bool_], covered: NDArray[np.bool_], mean: float
-) -> Array:
+def _formed(body: Body, changed: dict[str, Array], track: Mask, covered: Mask, mean: float) -> Array:
     """Return the tribofilm formed on each node [m], of a given mean: what it has gained, and even removal beside."""
     gained = thickness(changed["growth"], changed["removal"]) - body.tribofilm[track]
     share = float(covered.mean())
@@ -162,7 +159,7 @@ def _level(heights: Array, mean: float) -> float:
     return high
 
 
-def _covered(heights: Array, growth: Array, coverage: float) -> NDArray[np.bool_]:
+def _covered(heights: Array, growth: Array, coverage: float) -> Mask:
     """Return the nodes that make up the coverage: those that have grown most, and the highest of those without any."""
     order = np.lexsort((-heights.ravel(), -growth.ravel()))
     covered = np.zeros(heights.shape, bool)
@@ -170,7 +167,7 @@ def _covered(heights: Array, growth: Array, coverage: float) -> NDArray[np.bool_
     return covered
 
 
-def _raised(field: Array, covered: NDArray[np.bool_], then: float, now: float, most: float) -> Array:
+def _raised(field: Array, covered: Mask, then: float, now: float, most: float) -> Array:
     """Return a field [m] whose mean changes from `then` to `now`.
 
     An increase takes the same part of the room up to `most` on every covered node, a decrease the same part of the

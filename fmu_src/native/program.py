@@ -14,7 +14,7 @@ import numpy as np
 
 from contact_core import initial_state
 from contact_core.corrections.map import map_of
-from contact_core.corrections.query import corrected, slopes
+from contact_core.corrections.query import ByMap, slopes
 from contact_core.errors import OperatingPointError, SceneError
 from contact_core.quantities import OF_CALLER, OF_CORE
 from contact_core.regression import evolution
@@ -117,12 +117,7 @@ def _of_curves(scene: Scene) -> evolution.ContactOf:
 
 
 def _of_map(scene: Scene) -> evolution.ContactOf:
-    chart = map_of(scene)
-
-    def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-        return corrected(chart, case, evaluate(case, tribofilms, derivatives=False))
-
-    return contact_of
+    return ByMap(map_of(scene)).contact
 
 
 # of a scene at its level, the function that evaluates contacts, without derivatives

@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 import pythonfmu
 
 import contact_core
-from contact_core.quantities import measured
+from contact_core.quantities import CELSIUS, measured
 from contact_core.scene import Scene, units
 
 from ..flavours import Flavour, Version
@@ -118,7 +118,7 @@ def _unit_name(variable: Variable) -> str:
 def _conversion(display: str) -> dict[str, str]:
     """Return the attributes of display value = factor * SI value + offset."""
     if display == "degC":
-        return {"offset": "-273.15"}
+        return {"offset": f"{-CELSIUS}"}
     return {"factor": f"{1.0 / units.unit(display)[0]:.15g}"}
 
 

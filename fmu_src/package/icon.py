@@ -8,13 +8,15 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_core.kernels.arrays import Array, Mask
+
 SIZE = 256  # px
 _FINER = 4  # oversampling, for smooth edges
 _STEEL, _SHINE = (0.36, 0.42, 0.50), (0.90, 0.93, 0.96)
 _PLANE, _GROUND = (0.55, 0.60, 0.66), (0.42, 0.47, 0.53)
 _OIL, _LIGHT_OIL = (0.90, 0.58, 0.10), (0.99, 0.78, 0.32)
 
-Image = NDArray[np.float64]
+Image = Array
 
 
 def png() -> bytes:
@@ -41,7 +43,7 @@ def draw() -> NDArray[np.uint8]:
 
 def _paint(
     picture: Image,
-    where: NDArray[np.bool_],
+    where: Mask,
     start: tuple[float, float, float],
     end: tuple[float, float, float],
     share: Image,

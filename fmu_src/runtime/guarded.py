@@ -1,4 +1,4 @@
-"""The base of all slaves: variables by value reference, phases, and a guard that lets no exception reach the host.
+"""The base of all slaves: phases, steps, and a guard that lets no exception reach the host.
 
 An exception that reaches pythonfmu's binary can end the host's process; its only other answer, Discard, ends a
 simulation without a message. So every callback returns OK. The log says what could not be used, `valid` becomes false,
@@ -10,21 +10,19 @@ for its category, or for none.
 """
 
 import math
-import sys
 import traceback
 from abc import abstractmethod
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
 from contact_core import ContactError, ConvergenceError
 
 from ..phases import Phase
-from ..variables import TIME, ZERO, Causality, Kind, Value, Variable
-from . import loader
+from ..variables import TIME, Value
+from .references import ByReference
 
 LOG_CATEGORIES = {
     "logStatusWarning": "calls that FMI does not allow, and the user's interrupt",
@@ -57,46 +55,16 @@ class StepError(CallError):
     """A step that does not begin where the last one ended, or that goes beyond the stop time."""
 
 
-class GuardedSlave(Fmi2Slave):
-    """A model with variables by value reference, among them the output `valid` and the independent `time`.
-
-    Attributes, to be read only; places in both lists are value references:
-
-    values : the present value of each variable. The list object stays the same for the life of the instance.
-    layout : for each variable its kind ("Real", "Integer", ...) and its role (see `_role`). An isolated FMU's process
-        sends this to the host.
-    phase : phase of the instance.
-    """
+class GuardedSlave(ByReference):
+    """A model with variables by value reference that keeps to the phases of FMI and raises nothing to its host."""
 
     log_categories = LOG_CATEGORIES
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self._module = type(self).__module__  # of the FMU's own class: names the FMU in its resources and states
-        loader.tidy(self.resources, type(self).__name__)
-        try:
-            self._variables = self._read()
-        except ContactError as error:
-            print(error, file=sys.stderr)  # the host only learns that the FMU cannot be instantiated
-            raise
-        self._references = {v.name: vr for vr, v in enumerate(self._variables)}
-        self.values: list[Value] = [v.start for v in self._variables]
-        direct = {name for v in self._variables for name in v.direct}
-        self.layout = tuple((v.kind, _role(v, direct)) for v in self._variables)
-        self._inputs = [(v.name, vr) for vr, v in enumerate(self._variables) if v.causality == "input"]
-        self._settable = {
-            (kind, stepping): {vr for vr in self._references.values() if not self._objection(vr, kind, stepping)}
-            for kind in ZERO
-            for stepping in (False, True)
-        }
-        self.phase = Phase.NEW
         self._due: float | None = None  # begin of the next step [s]; None: anywhere
         self._stop: float | None = None  # [s], if the host has defined it
         self._interrupted = self._terminated = False
-
-    @abstractmethod
-    def _read(self) -> Sequence[Variable]:
-        """Read the model from the resources and return its variables. Raises ContactError if it cannot be used."""
 
     @abstractmethod
     def _initialise(self) -> None:
@@ -195,13 +163,6 @@ class GuardedSlave(Fmi2Slave):
         if self.phase is Phase.UNSETTLED:
             self._settle()
 
-    def _value(self, name: str) -> Value:
-        return self.values[self._references[name]]
-
-    def _parameters(self, values: Sequence[Value]) -> dict[str, Any]:
-        pairs = zip(self._variables, values, strict=True)
-        return {v.name: value for v, value in pairs if v.causality == "parameter"}
-
     # the guard
 
     @np.errstate(all="ignore")  # numpy would warn on the host's stderr; numbers that are not finite are refused
@@ -223,96 +184,6 @@ class GuardedSlave(Fmi2Slave):
         except (Exception, SystemExit):
             reason = f"Unexpected error in the model. {traceback.format_exc()}"
             self._refuse(reason, Fmi2Status.error, "logStatusError")
-
-    def _refuse(self, reason: str, status: Fmi2Status, category: str) -> None:
-        self.values[self._references["valid"]] = False
-        self._message(reason, status, category)
-
-    def _message(self, message: str, status: Fmi2Status, category: str) -> None:
-        # the host reads the message as a printf format, the binary as strict UTF-8
-        self.log(message.replace("%", "%%").encode("utf-8", "backslashreplace").decode(), status, category)
-
-    # variables by value reference
-
-    def _get(self, references: list[int], kind: Kind) -> list[Any]:
-        if any(self._causality(vr) == "output" for vr in references):
-            self.refresh()
-        found = []
-        for vr in references:
-            known = self._causality(vr) is not None and self._variables[vr].kind == kind
-            if not known:
-                reason = f"There is no {kind} variable with value reference {vr}."
-                self._refuse(reason, Fmi2Status.warning, "logStatusWarning")
-            found.append(self.values[vr] if known else ZERO[kind])
-        return found
-
-    def _set(self, references: list[int], values: Sequence[Value], kind: Kind) -> None:
-        stepping = self.phase is Phase.STEPPING
-        settable = self._settable[kind, stepping]
-        pairs = list(zip(references, values, strict=True))
-        if not settable.issuperset(references):
-            for reference in references:
-                if objection := self._objection(reference, kind, stepping):
-                    self._refuse(objection, Fmi2Status.warning, "logStatusWarning")
-            pairs = [(reference, value) for reference, value in pairs if reference in settable]
-        if pairs:
-            self._guard(self._store, pairs)
-
-    def _store(self, pairs: Sequence[tuple[int, Value]]) -> None:
-        """Store values by reference."""
-        for reference, value in pairs:
-            self.values[reference] = value
-        if self.phase is Phase.SETTLED:
-            self.phase = Phase.UNSETTLED
-
-    def _objection(self, reference: int, kind: Kind, stepping: bool) -> str:
-        """Return why a variable of this kind cannot be set now; an empty text if it can."""
-        causality = self._causality(reference)
-        if causality is None or self._variables[reference].kind != kind:
-            return f"There is no {kind} variable with value reference {reference}."
-        name = self._variables[reference].name
-        if causality == "output":
-            return f"{name} is an output and cannot be set."
-        if causality == "independent":
-            return f"{name} is the independent variable: fmi2SetupExperiment and fmi2DoStep set it."
-        if stepping and self._variables[reference].variability == "fixed":
-            return f"{name} is a parameter: set it before initialisation ends, or reset the FMU first."
-        return ""
-
-    def _causality(self, reference: int) -> Causality | None:
-        return self._variables[reference].causality if 0 <= reference < len(self._variables) else None
-
-    def get_real(self, vrs: list[int]) -> list[float]:
-        """Return values of Real variables."""
-        return self._get(vrs, "Real")
-
-    def get_integer(self, vrs: list[int]) -> list[int]:
-        """Return values of Integer variables."""
-        return self._get(vrs, "Integer")
-
-    def get_boolean(self, vrs: list[int]) -> list[bool]:
-        """Return values of Boolean variables."""
-        return self._get(vrs, "Boolean")
-
-    def get_string(self, vrs: list[int]) -> list[str]:
-        """Return values of String variables."""
-        return self._get(vrs, "String")
-
-    def set_real(self, vrs: list[int], values: list[float]) -> None:
-        """Set Real inputs or parameters; values are checked when they are used."""
-        self._set(vrs, values, "Real")
-
-    def set_integer(self, vrs: list[int], values: list[int]) -> None:
-        """Set Integer parameters."""
-        self._set(vrs, values, "Integer")
-
-    def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
-        """Refuse: no Boolean can be set."""
-        self._set(vrs, values, "Boolean")
-
-    def set_string(self, vrs: list[int], values: list[str | None]) -> None:
-        """Set String parameters; a null pointer is an empty text."""
-        self._set(vrs, [value or "" for value in values], "String")
 
     # FMU states. A handle, pythonfmu's object for a state, is one of two things: a frozen record with the bytes `data`,
     # made when the host gets a state; or plain bytes, made when the host deserialises a state. pythonfmu's binary calls
@@ -344,12 +215,3 @@ class GuardedSlave(Fmi2Slave):
     @staticmethod
     def _fmu_state_from_bytes(data: bytes) -> bytes:
         return data
-
-
-def _role(variable: Variable, direct: Collection[str]) -> str:
-    """Return the role of a variable for the host: its causality, "direct" or "tunable"; time is an "output"."""
-    if variable.name in direct:
-        return "direct"
-    if variable.causality == "independent":
-        return "output"  # it changes in every step
-    return "tunable" if variable.variability == "tunable" else variable.causality

@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact_core.kernels.arrays import Array, Mask
+
 Spans = Sequence[tuple[float, float]]
 
 # of Okabe and Ito, which the colour-blind can tell apart; dashes tell lines apart without colours
@@ -129,6 +129,6 @@ def shades(count: int, colours: str = "viridis", first: float = 0.0, last: float
     return [to_hex(colormaps[colours](share)) for share in np.linspace(first if count > 1 else last, last, count)]
 
 
-def spans_of(x: Array, marked: NDArray[np.bool_]) -> list[tuple[float, float]]:
+def spans_of(x: Array, marked: Mask) -> list[tuple[float, float]]:
     """Return the stretches of x of marked rows, one a row, each from the row before."""
     return [(float(x[k - 1]), float(x[k])) for k in np.flatnonzero(marked[1:]) + 1]

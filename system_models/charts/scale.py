@@ -7,7 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .chart import Array, Chart, Line
+from contact_core.kernels.arrays import Array
+
+from .chart import Chart, Line
 
 _TICKS = 5
 _STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)

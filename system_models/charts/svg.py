@@ -8,9 +8,10 @@ from importlib.resources import files
 
 import numpy as np
 
+from contact_core.kernels.arrays import Array
 from fmu_src.html.markup import text
 
-from .chart import DASHES, INDEXED, Array, Chart, Line, Spans
+from .chart import DASHES, INDEXED, Chart, Line, Spans
 from .scale import Scale, cut_off, decades, number, scale_of, ticks
 
 _WIDTH, _HEIGHT = 460.0, 250.0

@@ -5,11 +5,13 @@ import re
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from contact_core.kernels.arrays import Array
+from contact_core.quantities import CELSIUS
 
 from .half_widths import digits_of
 
-CELSIUS = 273.15  # K, of 0 degC
 _DEGREES = "°C"
 _PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"), (1e9, "G"))
 _PREFIXED = ("m", "Pa", "W", "N", "J", "N m")  # units that take a prefix
@@ -30,7 +32,7 @@ class Unit(NamedTuple):
     factor: float = 1.0
     offset: float = 0.0
 
-    def of(self, values: ArrayLike) -> NDArray[np.float64]:
+    def of(self, values: ArrayLike) -> Array:
         """Return values in SI in this unit."""
         return self.factor * np.asarray(values, dtype=float) + self.offset
 

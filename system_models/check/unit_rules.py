@@ -5,6 +5,7 @@ import math
 from fmpy.model_description import BaseUnit, DisplayUnit, ModelDescription
 
 from contact_core.errors import SceneError
+from contact_core.quantities import CELSIUS
 from contact_core.scene import units
 
 from .model_rules import described, reals_of
@@ -77,7 +78,7 @@ def _misconverted(base: BaseUnit, shown: DisplayUnit, meant: BaseUnit) -> str:
 def _si(name: str | None) -> BaseUnit | None:
     """Return the unit that a name means, if it is known here."""
     if name in ("degC", "°C"):
-        return BaseUnit(K=1, offset=273.15)
+        return BaseUnit(K=1, offset=CELSIUS)
     try:
         factor, (m, kg, s, kelvin, rad) = units.unit(name or "?")
     except (SceneError, OverflowError):

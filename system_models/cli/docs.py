@@ -3,8 +3,7 @@
 import argparse
 import pydoc
 
-from contact_core.errors import ContactError
-from contact_core.scene.toml import did_you_mean
+from contact_core.errors import ContactError, did_you_mean
 
 from . import pages
 

@@ -14,8 +14,7 @@ from collections.abc import Sequence
 from typing import NoReturn, Protocol
 
 import contact_core
-from contact_core.errors import ContactError
-from contact_core.scene.toml import did_you_mean
+from contact_core.errors import ContactError, did_you_mean
 
 from ..fmu.printable import printable
 from . import (

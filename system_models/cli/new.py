@@ -5,8 +5,8 @@ import re
 from importlib.resources import files as resources
 from pathlib import Path
 
-from contact_core.errors import ContactError
-from contact_core.scene.toml import did_you_mean, shipped_scenes
+from contact_core.errors import ContactError, did_you_mean
+from contact_core.scene.toml import shipped_scenes
 
 from ..machines import files as machines
 

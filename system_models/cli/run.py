@@ -3,8 +3,8 @@
 import argparse
 from pathlib import Path
 
-from contact_core.errors import ContactError
-from contact_core.scene.toml import did_you_mean, file_like, shipped_scenes
+from contact_core.errors import ContactError, did_you_mean
+from contact_core.scene.toml import file_like, shipped_scenes
 from fmu_src.flavours import FLAVOURS
 
 from ..machines import files

@@ -4,9 +4,8 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from contact_core.quantities import CELSIUS
 from contact_core.scene.origins import Origin
-
-from ..charts.units import CELSIUS
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"))
 _PREFIXED = frozenset({"m", "m/s", "Pa", "Pa s", "N", "J", "W"})

@@ -3,7 +3,7 @@
     archive    the file of an FMU, read within bounds; printable: its names and messages for a terminal
     model      an FMU as its modelDescription.xml has it; attributes: what is refused in it
     instance   a running FMU: the common part of both versions of FMI
-    fmi2, fmi3 the running FMU of each version
+    fmi2, fmi3 the running FMU of each version; values: variables of FMI 3.0 by type, arrays as a whole
     kinds      kinds of variables, by type and variability
     loading    unpacks FMUs; library: loads their libraries
     start      starts an instance of each of several FMUs

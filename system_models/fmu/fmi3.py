@@ -3,22 +3,24 @@
 import logging
 import struct
 from collections.abc import Callable
-from ctypes import byref, c_bool, c_double, c_float
-from math import isclose, nan, prod
+from ctypes import byref, c_bool, c_double
+from math import isclose, nan
 from typing import Any, NamedTuple
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi3 import FMU3Slave, fmi3Discard, fmi3ValueReference
+from fmpy.fmi3 import FMU3Slave, fmi3Discard
 from fmpy.model_description import ModelVariable
-from numpy.typing import NDArray
+
+from contact_core.kernels.arrays import Array
 
 from ..numerics import hold
 from . import messages
 from .errors import CouplingError
-from .instance import Instance, Reals
+from .instance import Instance
 from .loading import load
-from .model import Element, Model
+from .model import Model
+from .values import Shared, Values
 
 log = logging.getLogger(__name__)
 
@@ -30,21 +32,6 @@ class State(NamedTuple):
 
     memory: Any
     next_event: float | None
-
-
-class _Shared(NamedTuple):
-    """Variables of one type: where they stand among Reals, and the memory that the FMU reads and writes.
-
-    Of an array it has all elements; own: where in it the variables stand; alone: whether there are no others.
-    """
-
-    type: str
-    places: NDArray[np.intp] | slice
-    own: NDArray[np.intp] | slice
-    alone: bool
-    references: Any
-    values: NDArray[Any]
-    buffer: Any
 
 
 class Fmi3Instance(Instance):
@@ -72,13 +59,13 @@ class Fmi3Instance(Instance):
         capabilities = self.model.capabilities
         within = [self.model.variables[name].intermediateUpdate for name in self.inputs.names]
         self.interpolates = capabilities.providesIntermediateUpdate and bool(within) and all(within)
-        self._set, self._got = (_shared(reals, self.model) for reals in (self.inputs, self.outputs))
+        self._given, self._got = (Shared(reals, self.model) for reals in (self.inputs, self.outputs))
+        self._values = Values(self.model)
         self._has_event_mode = bool(capabilities.hasEventMode)
         self._started = self._stepping = self._in_event_mode = False
         self._folder = folder
         # values set and phases begun up to the first step, for an FMU that is begun again
         self._begun: list[tuple[Callable[..., None], tuple[Any, ...]]] = []
-        self._starts: dict[str, list[Any]] = {}  # of arrays, with the elements set before the initialisation
         self._load()
         try:
             self._create()
@@ -120,7 +107,7 @@ class Fmi3Instance(Instance):
             requiredIntermediateVariables=list(dict.fromkeys(self.inputs.references)) if self.interpolates else None,
         )
         self._component = self._fmu.component
-        self._gives = False  # before it is being initialised, an FMU gives no values
+        self._values.begin(self._fmu)
 
     def _leave_out_event_mode(self, reason: Exception) -> None:
         """Begin again without event mode, up to where the FMU is. Raises CouplingError for `reason` if that fails."""
@@ -151,37 +138,22 @@ class Fmi3Instance(Instance):
         if set_requested and self._refused_input is None:
             self.inputs.values[:] = hold.value(self._polynomial, time - self._start)
             try:
-                self._set_inputs()
+                self._given.put(self._fmu)
             except FMICallException as error:  # nothing may be raised through the FMU
                 self._refused_input = error
 
-    def _hold(self, polynomial: NDArray[np.float64], size: float) -> None:
+    def _hold(self, polynomial: Array, size: float) -> None:
         super()._hold(polynomial, size)
         self._polynomial = polynomial
 
     def set_inputs(self) -> None:
         """Give the FMU the values of `inputs`."""
-        for part in self._set:
-            if not part.alone:
-                self._call("Get", part)
-        self._set_inputs()
-
-    def _set_inputs(self) -> None:
-        for part in self._set:
-            if part.values is not self.inputs.values:
-                part.values[part.own] = self.inputs.values[part.places]
-            self._call("Set", part)
+        self._given.complete(self._fmu)
+        self._given.put(self._fmu)
 
     def _get_outputs(self) -> None:
         self._end_event()
-        for part in self._got:
-            self._call("Get", part)
-            if part.values is not self.outputs.values:
-                self.outputs.values[part.places] = part.values[part.own]
-
-    def _call(self, what: str, part: _Shared) -> None:
-        function = getattr(self._fmu, f"fmi3{what}{part.type}")
-        function(self._component, part.references, len(part.references), part.buffer, len(part.values))
+        self._got.get(self._fmu)
 
     def _do_step(self, time: float, size: float) -> float:
         self.event = False
@@ -236,44 +208,17 @@ class Fmi3Instance(Instance):
     def get(self, variable: ModelVariable) -> Any:
         """Return the value of a variable of any type."""
         self._end_event()
-        return self._value(variable)
-
-    def _value(self, variable: ModelVariable) -> Any:
-        whole, place = self._place(variable)
-        return self._values(whole)[place]
-
-    def _values(self, variable: ModelVariable) -> list[Any]:
-        """Return the value of a variable, or of an array those of all elements."""
-        found = getattr(self._fmu, f"get{_access(variable)}")([variable.valueReference], prod(variable.shape))
-        return list(found)
-
-    def _place(self, variable: ModelVariable) -> Element:
-        """Return the array in which a variable is got and set, or itself, and where it stands there."""
-        return self.model.elements.get(variable.name, Element(variable, 0))
+        return self._values.get(variable)
 
     def set(self, variable: ModelVariable, value: Any) -> None:
         """Set a variable of any type: a discrete one, during the simulation, in event mode if the value is another."""
         if self._stepping and not self._in_event_mode and variable.variability != "continuous":
-            if self._value(variable) == value:
+            if self._values.get(variable) == value:
                 return
             self._enter_event()
         if not self._started:
-            self._begun.append((self._put, (variable, value)))
-        self._put(variable, value)
-
-    def _put(self, variable: ModelVariable, value: Any) -> None:
-        whole, place = self._place(variable)
-        values = self._before(whole) if whole.dimensions else [value]
-        values[place] = value
-        getattr(self._fmu, f"set{_access(variable)}")([variable.valueReference], values)
-
-    def _before(self, array: ModelVariable) -> list[Any]:
-        """Return the values of an array, which is set as a whole."""
-        if self._gives:
-            return self._values(array)
-        if array.name not in self._starts:
-            self._starts[array.name] = self.model.starts(array)
-        return self._starts[array.name]
+            self._begun.append((self._values.put, (variable, value)))
+        self._values.put(variable, value)
 
     def enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
         """Go from the start values to the initialisation."""
@@ -282,7 +227,7 @@ class Fmi3Instance(Instance):
 
     def _enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
         self._fmu.enterInitializationMode(tolerance=tolerance, startTime=time, stopTime=stop)
-        self._gives = True
+        self._values.given = True
 
     def exit_initialization(self) -> None:
         """Go from the initialisation to the first step."""
@@ -333,36 +278,3 @@ class Fmi3Instance(Instance):
     def free(self) -> None:
         """End the instance, whatever state it is in."""
         self._fmu.freeInstance()
-
-
-def _shared(reals: Reals, model: Model) -> list[_Shared]:
-    """Return the Reals by type: those of Float64 alone as they are, arrays and any other in memory of its own."""
-    types = [model.variables[name].type for name in reals.names]
-    if set(types) <= {"Float64"} and not model.elements.keys() & set(reals.names):
-        every = slice(None)
-        return [_Shared("Float64", every, every, True, reals.references, reals.values, reals.buffer)] if types else []
-    found = []
-    for name, of_c in (("Float64", c_double), ("Float32", c_float)):
-        places = np.flatnonzero([own == name for own in types])
-        if len(places):
-            found.append(_of_type(name, of_c, places, [reals.names[n] for n in places], model))
-    return found
-
-
-def _of_type(name: str, of_c: Any, places: NDArray[np.intp], names: list[str], model: Model) -> _Shared:
-    """Return the Reals of one type, and with those that are elements of arrays the other elements."""
-    at = [model.elements.get(own, Element(model.variables[own], 0)) for own in names]
-    first, count = dict[int, int](), 0
-    for whole, _ in at:
-        if whole.valueReference not in first:
-            first[whole.valueReference] = count
-            count += prod(whole.shape)
-    own = np.array([first[whole.valueReference] + place for whole, place in at])
-    values = np.zeros(count, of_c)
-    references = (fmi3ValueReference * len(first))(*first)
-    return _Shared(name, places, own, count == len(names), references, values, (of_c * count).from_buffer(values.data))
-
-
-def _access(variable: ModelVariable) -> str:
-    """Return the type by which a variable is got and set."""
-    return "Int64" if variable.type == "Enumeration" else str(variable.type)

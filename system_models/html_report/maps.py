@@ -8,9 +8,10 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from contact_core.kernels.arrays import Array
 from fmu_src.html.markup import paragraph, section, text
 
-from ..charts.chart import Array, Chart, Line, shades
+from ..charts.chart import Chart, Line, shades
 from ..charts.svg import figures, safe_json
 from ..charts.units import time_unit, unit_for
 from ..run.maps import ALONG, TIME

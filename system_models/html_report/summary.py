@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from contact_core.quantities import CELSIUS
 from contact_core.state import Error
 from fmu_src.html.markup import Raw, paragraph, section, table, text
 
@@ -54,7 +55,7 @@ def _conditions(run: Run) -> str:
         f"load {point.load:.4g} N, {pressure / 1e9:.3g} GPa Hertz pressure",
         f"entrainment {roll:.4g} m/s",
         *([f"slide-to-roll ratio {(point.speed_1 - point.speed_2) / point.entrainment_speed:.2%}"] if roll else []),
-        f"oil at {point.temperature - 273.15:.4g} °C",
+        f"oil at {point.temperature - CELSIUS:.4g} °C",
     ]
     changing = " at the start of its duty" if len(scene.operation.steps) or scene.operation.file else ""
     return paragraph(f"{scene.name}, as it was run{changing}: {', '.join(parts)}; level {scene.film.fidelity}.")

@@ -11,10 +11,9 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from contact_core.errors import ContactError
+from contact_core.errors import ContactError, did_you_mean
 from contact_core.quantities import TABLE, measured_range
 from contact_core.scene import units
-from contact_core.scene.toml import did_you_mean
 
 # beside the inputs and outputs of a contact: what a rig says about speeds. Those of ball and disc, which have no unit
 # in exports, tell which body is faster

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from contact_core.errors import ContactError
-from contact_core.quantities import TABLE
+from contact_core.quantities import CELSIUS, TABLE
 
 from .log_columns import OF_RIGS
 from .log_file import Log, Step
@@ -220,7 +220,7 @@ def _steady(name: str, values: np.ndarray) -> np.ndarray:
 
 def _rounded(name: str, x: float) -> float:
     if name == "temperature":
-        return round(x - 273.15, 1) + 273.15
+        return round(x - CELSIUS, 1) + CELSIUS
     if name == "srr" and abs(x) < _ROLLING:
         return 0.0
     return float(f"{x:.{_DIGITS}g}")
@@ -233,7 +233,7 @@ def _names(rows: Sequence[Row]) -> list[str]:
 def _cell(name: str, value: float | None) -> str:
     if value is None:
         return ""
-    return f"{value - 273.15 if name == 'temperature' else value:.6g}"
+    return f"{value - CELSIUS if name == 'temperature' else value:.6g}"
 
 
 def _si(name: str) -> str:

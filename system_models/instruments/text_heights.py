@@ -10,9 +10,8 @@ import re
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact_core.kernels.arrays import Array, Indices
 
 SUFFIXES = (".csv", ".txt", ".asc", ".dat", ".xyz")
 _NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$")
@@ -66,7 +65,7 @@ def _points(table: Array) -> TextHeights | None:
     return TextHeights(heights, (dy, dx))
 
 
-def _places(values: Array) -> tuple[NDArray[np.int64], float] | None:
+def _places(values: Array) -> tuple[Indices, float] | None:
     """Return the place of each value on an even scale from the least one, and its spacing; None if there is none."""
     if not np.isfinite(values).all():
         return None

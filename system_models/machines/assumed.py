@@ -22,6 +22,7 @@ from contact_core import advance, initial_state
 from contact_core.assumed import OUTPUTS, TRIBOFILM, WEAR, Answers, Assumption, half_widths, text
 from contact_core.errors import ContactError
 from contact_core.film import Regression
+from contact_core.quantities import CELSIUS
 from contact_core.scene import OperatingPoint, Scene
 from contact_core.scene.intervals import Interval
 
@@ -263,7 +264,7 @@ def where(found: Worth) -> str:
 def _value(name: str, value: float, dataset: xr.Dataset) -> str:
     """Return a result in its unit as text; wear as a rate, by time."""
     if _TEMPERATURE in name:
-        return f"{value - 273.15:.1f} degC"
+        return f"{value - CELSIUS:.1f} degC"
     if name.endswith(f".{WEAR}"):
         return f"{3.6e12 * value:.3g} nm/h" if value > _NO_WEAR else _NONE
     if _absolute(name):

@@ -11,26 +11,17 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from contact_core import OperatingPoint
-from contact_core.corrections.kriging import (
-    CORRECTED,
-    Conditioned,
-    Knots,
-    conditioned,
-    knots,
-    pair_of,
-    place,
-)
+from contact_core.corrections.correction import CORRECTED
+from contact_core.corrections.kriging import Conditioned, Conditioner, Knots, knots, pair_of, place
+from contact_core.kernels.arrays import Array
 from contact_core.quantities import LEVELS, TABLE
 from contact_core.scene import Case, Scene
 
 from .assembly import Assembly
 from .report import loss_error, lost
 from .resolve import COMPARED, FAST, Resolved, started
-
-Array = NDArray[np.float64]
 
 
 def knots_of(states: Sequence[Resolved]) -> Knots:
@@ -43,12 +34,12 @@ def knots_of(states: Sequence[Resolved]) -> Knots:
 
 def corrected(assembly: Assembly, dataset: xr.Dataset, states: Sequence[Resolved]) -> xr.Dataset:
     """Return friction, film and W_c of a run's contacts, corrected, and their errors; of other levels as they are."""
-    given, variables = knots_of(states), {}
+    given, variables = Conditioner(knots_of(states)), {}
     for name, contact in assembly.contacts.items():
         scene, start = started(contact)
         recorded = {key: dataset[f"{name}.{key}"].values for key in assembly.inputs_of(name)}
         places = _places(scene, start, recorded, {key: dataset[f"{name}.{key}"].values for key in _NEEDED})
-        told = conditioned(given, np.full(len(places), pair_of(scene), object), places)
+        told = given.at(np.full(len(places), pair_of(scene), object), places)
         raw = {key: dataset[f"{name}.{key}"].values for key in (*CORRECTED, *CORRECTED.values())}
         fast = dataset[f"{name}.fidelity_used"].values == 1 + LEVELS.index(FAST)
         for key, values in told.of(raw).items():
@@ -78,7 +69,7 @@ def without_itself(states: Sequence[Resolved]) -> list[dict[str, Any] | None]:
         if not state.solved or state.place is None:
             found.append(None)
             continue
-        told = conditioned(given.but(k), given.pairs[k : k + 1], given.places[k : k + 1])
+        told = Conditioner(given.but(k)).at(given.pairs[k : k + 1], given.places[k : k + 1])
         found.append(Conditioned(told.mean[0], told.left[0]).of(vars(state.fast)))
         k += 1
     return found

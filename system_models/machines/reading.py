@@ -22,10 +22,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from contact_core.errors import SceneError
+from contact_core.errors import SceneError, did_you_mean
 from contact_core.quantities import LEVELS
 from contact_core.scene.intervals import Interval, applicable, listed
-from contact_core.scene.toml import NO_UTF_8, did_you_mean, still_assumed
+from contact_core.scene.toml import NO_UTF_8, still_assumed
 
 from ..master.reading import settings, value
 from ..run import duty_table

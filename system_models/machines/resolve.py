@@ -13,10 +13,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from contact_core import ContactError, ContactState, OperatingPoint, Outputs, RangeFlag, advance, initial_state
-from contact_core.corrections.kriging import Place, pair_of, place
+from contact_core.corrections.kriging import pair_of, place
+from contact_core.corrections.places import Place
+from contact_core.kernels.arrays import Array, Mask
 from contact_core.quantities import LEVELS
 from contact_core.scene import Case, Scene, tunables, with_values
 
@@ -131,7 +132,7 @@ def _unpacked(packed: bytes) -> Resolved:
     return Resolved(**{**table, **outputs, "place": place and Place(*place)})
 
 
-def _windows(times: NDArray[np.float64], count: int) -> Iterator[Sequence[int]]:
+def _windows(times: Array, count: int) -> Iterator[Sequence[int]]:
     """Yield rows from which one state is to be taken, best first.
 
     First all rows; then those of `count` - 1 equal parts of the time, each from its end.
@@ -142,9 +143,7 @@ def _windows(times: NDArray[np.float64], count: int) -> Iterator[Sequence[int]]:
         yield range(end - 1, begin - 1, -1)
 
 
-def _candidates(
-    rows: Sequence[int], usable: Mapping[str, NDArray[np.bool_]], tried: Mapping[str, int]
-) -> list[tuple[str, int]]:
+def _candidates(rows: Sequence[int], usable: Mapping[str, Mask], tried: Mapping[str, int]) -> list[tuple[str, int]]:
     """Return a contact and a row to try, and more for the case that it has no solution.
 
     Those are of other contacts, the least tried ones first, and if there are none, other rows.
@@ -184,7 +183,7 @@ def _spread(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[str]:
     return [name for shift in range(stride) for name in names[(shift + stride // 2) % stride :: stride]]
 
 
-def _usable(dataset: xr.Dataset, name: str, contact: Contact) -> NDArray[np.bool_]:
+def _usable(dataset: xr.Dataset, name: str, contact: Contact) -> Mask:
     """Return the rows in which a contact works.
 
     It is above a tenth of its mean load and speed, now and before, and stands for some contact of the machine.

@@ -36,10 +36,10 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from contact_core.errors import SceneError
+from contact_core.errors import SceneError, did_you_mean
 from contact_core.quantities import Quantity, value_out_of_range
 from contact_core.scene import units
-from contact_core.scene.toml import did_you_mean, flat
+from contact_core.scene.toml import flat
 
 from ..run import duty_table
 from ..run.duty_table import Row

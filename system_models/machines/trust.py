@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from contact_core.kernels.arrays import Array, Mask
+from contact_core.quantities import CELSIUS
 from contact_core.scene import Case, OperatingPoint
 from contact_core.state import RangeFlag
 
-from ..charts.units import CELSIUS
 from ..parts.part import start_values
 from ..run import flags, grown, verdict
 from ..run.trust import described, regime, span, wrapped
@@ -140,12 +140,12 @@ def beyond(assembly: Assembly, contacts: Mapping[str, xr.Dataset], flag: RangeFl
     return worst, flags.by_how_much(flag, assembly.contacts[worst].own_scene, rows)
 
 
-def _up(rows: xr.Dataset, flag: RangeFlag) -> NDArray[np.bool_]:
+def _up(rows: xr.Dataset, flag: RangeFlag) -> Mask:
     """Return the rows of a contact in which a flag is up."""
     return np.asarray((rows["range_flags"].values.astype(int) & flag) > 0)
 
 
-def _load(rows: xr.Dataset, marked: NDArray[np.bool_]) -> float:
+def _load(rows: xr.Dataset, marked: Mask) -> float:
     """Return the largest load [N] in motion in marked rows; below zero without any."""
     moving = marked & (rows["speed_1"].values + rows["speed_2"].values != 0.0)
     return float(rows["load"].values[moving].max(initial=-1.0))
@@ -182,7 +182,7 @@ def of_contact(assembly: Assembly, dataset: xr.Dataset, name: str) -> xr.Dataset
     return found
 
 
-def _held(course: Sequence[tuple[float, Any]], times: NDArray[np.float64]) -> NDArray[np.float64]:
+def _held(course: Sequence[tuple[float, Any]], times: Array) -> Array:
     """Return the values that a scheduled input has in the steps that end at some times [s]."""
     starts, values = (np.array(column, dtype=float) for column in zip(*course, strict=True))
     return values[np.maximum(np.searchsorted(starts, times, "left") - 1, 0)]

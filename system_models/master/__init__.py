@@ -12,7 +12,7 @@ The simulation:
     interrupt     Ctrl-C waits for the end of a step
     stepping      a communication step of a given size; controlled: as large as a tolerance allows
     events        the time of an event within a step
-    coupled       the running FMUs of a system: exchange, advance, save, restore
+    running       the running FMUs of a system: values, events, states; coupled: exchange, advance, go back
     passed_on     connections to inputs that are set when their values change
     magnitudes    magnitudes of outputs, by which tolerances are relative
     initial       consistent initial values

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from contact_core.scene.toml import did_you_mean
+from contact_core.errors import did_you_mean
+from contact_core.kernels.arrays import Array, Mask
 
 from ..fmu.errors import CouplingError, NotFiniteError
 from ..numerics.control import StepControl, wrms
@@ -137,13 +137,13 @@ class ControlledStepper(Stepper):
         seen, gains = [indicators, self._indicators.values()], self._gains(changes, coupled.ends() - before)
         return Attempt(size, rows, seen, ratio, errors, gains, of_halves, event)
 
-    def _gains(self, changes: NDArray[np.float64], of_inputs: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _gains(self, changes: Array, of_inputs: Array) -> Array:
         """Return the changes of the coupled outputs over those of the inputs of their FMUs."""
         norms = np.array([np.linalg.norm(of_inputs[beside]) for beside in self.coupled.wiring.beside])
         return np.divide(changes, norms, out=np.zeros(len(changes)), where=norms > 0.0)
 
     @property
-    def _lagging(self) -> NDArray[np.bool_]:
+    def _lagging(self) -> Mask:
         """The outputs that belong to an earlier time than the inputs that they set: the order is one with them."""
         return np.asarray((self.lags >= _EVIDENCE) & self._may_lag)
 
@@ -151,14 +151,14 @@ class ControlledStepper(Stepper):
         """Return the share of the tolerance for a step: in proportion to it, but no less than the level of noise."""
         return min(1.0, max(_LEAST_SHARE, size / self.horizon))
 
-    def _scales(self) -> NDArray[np.float64]:
+    def _scales(self) -> Array:
         """Return magnitudes of the outputs that set inputs."""
         return self.coupled.magnitudes.scales(self.coupled.outputs)[self.coupled.wiring.coupled]
 
-    def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
+    def _ratio(self, errors: Array, size: float) -> float:
         return wrms(errors, np.maximum(self._shares(size), self._noise) * self._scales())
 
-    def _shares(self, size: float) -> NDArray[np.float64]:
+    def _shares(self, size: float) -> Array:
         """Return the errors that a step may have, relative to the magnitudes."""
         return self.tolerance * np.where(self.lags < _EVIDENCE, self._share(size), 1.0)
 
@@ -187,7 +187,7 @@ class ControlledStepper(Stepper):
         return attempt._replace(error=self._ratio(attempt.errors, attempt.size))
 
     @staticmethod
-    def _follows_at_once(earlier: Attempt, attempt: Attempt) -> NDArray[np.bool_]:
+    def _follows_at_once(earlier: Attempt, attempt: Attempt) -> Mask:
         """Return True if an output follows the inputs of its FMU at once, or integrated, the more the longer the step.
 
         The changes of the inputs over the halves are known, so kinks in them do not matter.
@@ -195,13 +195,13 @@ class ControlledStepper(Stepper):
         return np.asarray(earlier.gains < attempt.gains * math.sqrt(earlier.size / attempt.size))
 
     @staticmethod
-    def _order_is_reduced(earlier: Attempt, attempt: Attempt) -> NDArray[np.bool_]:
+    def _order_is_reduced(earlier: Attempt, attempt: Attempt) -> Mask:
         """Return True if an error falls too slowly with the step to add up: as that of a stiff force, soon gone."""
         expected = earlier.halves.error / attempt.halves.error * math.sqrt(attempt.size / earlier.size)
         return np.asarray(earlier.errors < expected * attempt.errors)
 
 
-def _mask(coupled: Coupled) -> NDArray[np.bool_]:
+def _mask(coupled: Coupled) -> Mask:
     """Return True for the coupled outputs that must keep the tolerance. Raises CouplingError for other names."""
     names = [coupled.wiring.outputs[place] for place in coupled.wiring.coupled]
     chosen = coupled.settings.controlled

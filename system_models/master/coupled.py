@@ -1,9 +1,8 @@
-"""The running FMUs of a system: they exchange values at communication points and advance between them."""
+"""The running FMUs of a system, coupled: they exchange values at communication points and advance between them."""
 
-import logging
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -11,9 +10,10 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 from numpy.typing import NDArray
 
+from contact_core.kernels.arrays import Array
+
 from ..fmu.errors import CouplingError, NotFiniteError
 from ..fmu.instance import Instance
-from ..fmu.start import started
 from ..numerics import hold
 from ..numerics.control import wrms
 from ..numerics.hold import History, Past
@@ -22,14 +22,10 @@ from .initial import initialise, with_feedthrough
 from .linear import Correction
 from .magnitudes import Magnitudes, positive
 from .passed_on import PassedOn
+from .running import Running
 from .sequence import Block, blocks, feedthrough_order
 from .settings import Settings
 from .system import Port, System
-from .wiring import Wiring, real_inputs, real_outputs
-
-Array = NDArray[np.float64]
-
-log = logging.getLogger(__name__)
 
 _SAME_TIME = 1e-12  # relative to the step: a step that ends this close to its end has got there
 _MOST_ITERATIONS = 50
@@ -62,25 +58,14 @@ class Point:
     states: dict[str, Any]  # of the FMUs; empty if one of them cannot go back
 
 
-class Coupled:
-    """The FMUs of a system between two communication points.
-
-    time in s; outputs: the Real outputs of all FMUs, in the order of the wiring. Every method that calls an FMU raises
-    CouplingError if it fails.
-    """
+class Coupled(Running):
+    """The FMUs of a system between two communication points: how their inputs go on, and how a step is made."""
 
     def __init__(self, system: System, recorded: Sequence[Port], settings: Settings, exits: ExitStack) -> None:
-        self.system, self.settings = system, settings
-        self.restores = all(model.restores for model in system.models.values())
-        ports = real_inputs(system), real_outputs(system, list(recorded))
-        inputs, outputs = ({name: [port.variable for port in each[name]] for name in system.models} for each in ports)
-        self.instances = started(system.models, inputs, outputs, early_return=self.restores, exits=exits)
-        self.wiring = Wiring(system, self.instances)
-        self.outputs = np.zeros(len(self.wiring.outputs))
+        super().__init__(system, recorded, settings, exits)
         self.magnitudes = Magnitudes([system.port(name).nominal or 0.0 for name in self.wiring.outputs])
         self.history = History(settings.order, self.wiring.sampled)
         self.iteration_tolerance = settings.converged
-        self.time = 0.0
         self._blocks = blocks(system, self.instances, self.wiring.inputs, settings)
         self._methods: list[Method] = [METHODS[settings.iterate]() for _ in self._blocks] if settings.iterate else []
         self._feedthrough = feedthrough_order(system, self.instances)
@@ -93,42 +78,15 @@ class Coupled:
         for name, value in self.system.parameters.items():
             self.set(name, value)
         for instance in self.instances.values():
-            with self._named(instance, "to be initialised"):
+            with self.named(instance, "to be initialised"):
                 instance.enter_initialization(self.time, self.settings.stop_time, self.settings.tolerance)
         self.set_scheduled(lambda time: time <= self.settings.margin(self.time))
         initialise(self.instances, self.system.connections)
         for instance in self.instances.values():
-            with self._named(instance, "to be initialised"):
+            with self.named(instance, "to be initialised"):
                 instance.exit_initialization()
         self._feedthrough = with_feedthrough(self.instances, self._feedthrough)
         self.restart()
-
-    def set(self, name: str, value: Any) -> None:
-        """Set one variable from outside."""
-        port = self.system.port(name)
-        instance = self.instances[port.model.name]
-        with self._named(instance, f"to take '{name}' = {value!r}"):
-            instance.set(port.variable, value)
-
-    def get(self, port: Port) -> Any:
-        """Return the value of a variable of any type."""
-        instance = self.instances[port.model.name]
-        with self._named(instance, f"to give '{port.name}'"):
-            return instance.get(port.variable)
-
-    def set_scheduled(self, times: Callable[[float], bool]) -> bool:
-        """Set inputs to their last scheduled value at such times; return True if there is one."""
-        due = {name: value for name, steps in self.system.schedule.items() for at, value in steps if times(at)}
-        for name, value in due.items():
-            self.set(name, value)
-        return bool(due)
-
-    def next_event(self) -> float:
-        """Return the time [s] of the first event that an FMU has announced, the latest of those at the same time."""
-        announced = [instance.next_event for instance in self.instances.values() if instance.next_event is not None]
-        ahead = [time for time in announced if time > self.time]
-        first = min(ahead, default=math.inf)
-        return max((time for time in ahead if time <= first + self.settings.margin(first)), default=math.inf)
 
     def restart(self) -> None:
         """Begin anew at this time: read all outputs, and forget the past."""
@@ -171,7 +129,7 @@ class Coupled:
             if again:
                 polynomial = self.history.interpolate(size, self.wiring.inputs_from(self.outputs))
                 for name in self.instances:
-                    self._restore_instance(name, start)
+                    self.go_back(name, start.states, start.time)
             ends = hold.value(polynomial, size)
             for block in self._blocks:
                 self._pass(block, size, polynomial, ends)
@@ -207,7 +165,7 @@ class Coupled:
                     if not np.isfinite(guess).all():
                         break
                     for name in block.names:
-                        self._restore_instance(name, start)
+                        self.go_back(name, start.states, start.time)
                 iteration += 1
                 ends[unknown] = guess
                 self._pass(block, size, self.history.interpolate(size, ends), ends)
@@ -281,29 +239,20 @@ class Coupled:
         for name in self._feedthrough:
             instance = self.instances[name]
             instance.inputs.values[:] = self.wiring.inputs_from(self.outputs, self.wiring.input_of[name])
-            try:
+            with self.named(instance, f"at {self.time:g} s"):
                 instance.set_inputs()
-                instance.read()
-            except FMICallException as error:
-                raise instance.failure(f"at {self.time:g} s", error) from error
-            self.outputs[self.wiring.output_of[name]] = instance.outputs.values
-
-    def read(self, instance: Instance) -> None:
-        """Read the outputs of an FMU."""
-        with self._named(instance, f"at {self.time:g} s"):
-            instance.read()
-        self.outputs[self.wiring.output_of[instance.name]] = instance.outputs.values
+            self.read(instance)
 
     def save(self) -> Point:
         """Return the present point. The FMUs can go back to it only if all of them can; `release` frees it."""
-        states = {name: instance.save() for name, instance in self.instances.items()} if self.restores else {}
+        states = self.saved() if self.restores else {}
         memories = [method.copy() for method in self._methods]
         return Point(self.time, self.outputs.copy(), self.history.copy(), list(self._passed.values), memories, states)
 
     def restore(self, point: Point) -> None:
         """Go back to a point."""
         for name in self.instances:
-            self._restore_instance(name, point)
+            self.go_back(name, point.states, point.time)
         self.time = point.time
         self.outputs[:] = point.outputs
         self.history.restore(point.history)
@@ -311,26 +260,13 @@ class Coupled:
         for method, memory in zip(self._methods, point.memories, strict=True):
             method.restore(memory)
 
-    def _restore_instance(self, name: str, point: Point) -> None:
-        instance = self.instances[name]
-        try:
-            instance.restore(point.states[name])
-        except FMICallException as error:
-            raise instance.failure(f"to go back to {point.time:g} s", error) from error
-
     def release(self, point: Point) -> None:
         """Free the states of FMUs that a point holds."""
-        for name, state in point.states.items():
-            self.instances[name].release(state)
-        point.states.clear()
+        self.freed(point.states)
 
     def stored(self) -> tuple[dict[str, bytes], dict[str, Any]]:
         """Return the states of the FMUs as bytes, and all else that another process needs to continue."""
-        states = {}
-        for name, instance in self.instances.items():
-            with self._named(instance, "to give its state"):
-                states[name] = instance.serialised()
-        return states, {
+        return self.serialised(), {
             "time": self.time,
             "outputs": self.outputs.copy(),
             "history": self.history.copy(),
@@ -339,15 +275,12 @@ class Coupled:
             "magnitudes": self.magnitudes.known.copy(),
             "expected": self.magnitudes.expected.copy(),
             "held": self._held,
-            "counts": {name: [s.steps, s.seconds, s.events, s.derivative_order] for name, s in self.instances.items()},
+            "counts": self.counts(),
         }
 
     def continue_from(self, states: Mapping[str, bytes], memory: Mapping[str, Any]) -> None:
         """Go to a point that `stored` has returned."""
-        for name, instance in self.instances.items():
-            with self._named(instance, "to take the state of a checkpoint"):
-                instance.deserialise(states[name])
-            instance.steps, instance.seconds, instance.events, instance.derivative_order = memory["counts"][name]
+        self.deserialise(states, memory["counts"])
         self.time = memory["time"]
         self.outputs[:] = memory["outputs"]
         self.history.restore(memory["history"])
@@ -357,16 +290,6 @@ class Coupled:
         self.magnitudes.known[:] = memory["magnitudes"]
         self.magnitudes.expected[:] = memory["expected"]
         self._held = memory["held"]
-
-    def may_lag(self, place: int) -> bool:
-        """Return True if an output may still belong to the held inputs, not to those at the end of the step."""
-        port = self.system.port(self.wiring.outputs[place])
-        direct = port.model.dependencies.get(port.variable.name, True)
-        return not direct and not self.instances[port.model.name].interpolates
-
-    def event(self) -> bool:
-        """Return True if an FMU has had an event of its own in the last step."""
-        return any(instance.event for instance in self.instances.values())
 
     def ends(self) -> Array:
         """Return the inputs at the end of the last step, as the FMUs have received them, over their magnitudes."""
@@ -381,13 +304,6 @@ class Coupled:
     def power_residuals(self) -> list[float]:
         """Return the power that the coupling has added to each bond at the end of the last step [W]."""
         return self.wiring.power_residuals(self.outputs, self._held)
-
-    @contextmanager
-    def _named(self, instance: Instance, what: str) -> Iterator[None]:
-        try:
-            yield
-        except FMICallException as error:
-            raise instance.failure(what, error) from error
 
 
 def _with_columns(old: Array, new: Array, columns: NDArray[np.intp]) -> Array:

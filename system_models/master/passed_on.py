@@ -1,12 +1,10 @@
 """Connections to inputs that are set when their values change: integers, booleans, texts, and Reals set at events."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..fmu.errors import CouplingError
+from .running import Running
 from .system import Connection
-
-if TYPE_CHECKING:
-    from .coupled import Coupled
 
 _MOST_PASSES = 20  # until the values at a communication point come to rest
 
@@ -18,23 +16,23 @@ class PassedOn:
         self.connections = connections
         self.values: list[Any] = [None] * len(connections)
 
-    def settle(self, coupled: "Coupled") -> None:
+    def settle(self, fmus: Running) -> None:
         """Set the inputs until nothing changes any more."""
         if not self.connections:
             return
         for _ in range(_MOST_PASSES):
             changed = set()
             for n, connection in enumerate(self.connections):
-                value = coupled.get(connection.source)
+                value = fmus.get(connection.source)
                 if value != self.values[n]:
-                    coupled.set(connection.target.name, connection.result(value))
+                    fmus.set(connection.target.name, connection.result(value))
                     self.values[n] = value
                     changed.add(connection.target.model.name)
             for name in changed:
-                coupled.read(coupled.instances[name])
+                fmus.read(fmus.instances[name])
             if not changed:
                 return
         raise CouplingError(
-            f"Discrete values change again and again at {coupled.time:g} s: "
+            f"Discrete values change again and again at {fmus.time:g} s: "
             f"{', '.join(sorted(connection.source.name for connection in self.connections))}. Break their loop."
         )

@@ -29,9 +29,9 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from contact_core.errors import ContactError
+from contact_core.errors import ContactError, did_you_mean
 from contact_core.scene import units
-from contact_core.scene.toml import NO_UTF_8, did_you_mean
+from contact_core.scene.toml import NO_UTF_8
 
 from ..fmu.errors import CouplingError
 from .settings import Settings

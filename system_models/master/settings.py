@@ -7,7 +7,7 @@ from itertools import pairwise
 from numbers import Real
 from typing import Any
 
-from contact_core.scene.toml import did_you_mean
+from contact_core.errors import did_you_mean
 
 from ..fmu.errors import CouplingError
 from ..numerics.algorithms import ALGORITHMS

@@ -10,7 +10,7 @@ from typing import Any
 
 from fmpy.model_description import ModelVariable
 
-from contact_core.scene.toml import did_you_mean
+from contact_core.errors import did_you_mean
 
 from ..fmu.errors import CouplingError
 from ..fmu.kinds import discrete, holds, kind

@@ -7,6 +7,7 @@ import re
 from fmpy.model_description import ModelDescription, ModelVariable
 
 from contact_core.errors import SceneError
+from contact_core.quantities import CELSIUS
 from contact_core.scene.units import unit as known_unit
 
 from ..fmu.errors import CouplingError
@@ -17,7 +18,11 @@ _EXPONENTS = ("m", "kg", "s", "K", "A", "mol", "cd")  # rad is a number: tools w
 _TURNS = re.compile("Hz|rpm|rev|r/|turn|min")  # in names of units that count turns, where they have no rad
 _TEMPERATURE = (0, 0, 0, 1, 0, 0, 0)
 _ROUNDED = 1e-4  # of a decade: factors are written with few digits
-_BY_NAME = {"degC": (1.0, 273.15), "°C": (1.0, 273.15), "degF": (1.0 / 1.8, 459.67 / 1.8)}  # factor and offset to K
+_BY_NAME = {
+    "degC": (1.0, CELSIUS),
+    "°C": (1.0, CELSIUS),
+    "degF": (1.0 / 1.8, 459.67 / 1.8),
+}  # factor and offset to K
 
 
 def conversion(

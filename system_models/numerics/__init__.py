@@ -6,6 +6,7 @@
     control       error norm and step size
     iteration     fixed point, Aitken; the table of all methods
     quasi_newton  interface quasi-Newton of least squares; secant: the same of one value
+    arrays        their types
 
 Arrays are in the order of the wiring that the master has made.
 """

@@ -7,9 +7,8 @@ Söderlind, ACM TOMS 29 (2003) 1, doi:10.1145/641876.641877 (the controller PI.4
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from .arrays import Array
 
 _TARGET = 0.7  # of the error that is allowed
 _NEWEST, _PREVIOUS = 0.6, 0.2  # exponents of PI.4.2, times the order

@@ -7,9 +7,9 @@ point. They follow from Newton's divided differences, so that steps may vary.
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from .arrays import Array, Mask
+
 Past = tuple[tuple[float, ...], tuple[Array, ...]]
 
 
@@ -20,7 +20,7 @@ class History:
     Nothing stored is ever changed, so that a copy costs nothing and restores exactly.
     """
 
-    def __init__(self, order: int, sampled: NDArray[np.bool_] | None = None) -> None:
+    def __init__(self, order: int, sampled: Mask | None = None) -> None:
         self._order = order
         self._sampled = sampled if sampled is not None and sampled.any() else None
         self._times: tuple[float, ...] = ()  # [s], newest first

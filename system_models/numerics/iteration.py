@@ -10,12 +10,8 @@ Source: Küttler & Wall, Comput. Mech. 43 (2008) 61, doi:10.1007/s00466-008-0255
 import math
 from typing import Any, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
+from .arrays import Array
 from .quasi_newton import QuasiNewton
-
-Array = NDArray[np.float64]
 
 _FIRST = 0.1  # Aitken's factor before anything is known
 _LEAST, _MOST = 1e-6, 2.0  # its magnitude

@@ -11,11 +11,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import Array
 from .secant import Secant, probing
 
-Array = NDArray[np.float64]
 Differences = tuple[Array, Array]  # of v and of r [count, size] each
 
 _KEPT = 20  # differences at most, of accepted steps

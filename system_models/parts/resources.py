@@ -9,9 +9,9 @@ from typing import Any
 
 import contact_core
 from contact_core.entry_points import homes
-from contact_core.errors import SceneError
+from contact_core.errors import SceneError, did_you_mean
 from contact_core.quantities import out_of_range, value_out_of_range
-from contact_core.scene.toml import build, did_you_mean, unbuild
+from contact_core.scene.toml import build, unbuild
 from fmu_src.flavours import Flavour, Version
 from fmu_src.runtime.resources import identity, script
 

@@ -13,11 +13,11 @@ import re
 from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 
-from contact_core.errors import SceneError
+from contact_core.errors import SceneError, did_you_mean
 from contact_core.quantities import Quantity, value_out_of_range
 from contact_core.scene import units
 from contact_core.scene.other_names import meant
-from contact_core.scene.toml import did_you_mean, file_like
+from contact_core.scene.toml import file_like
 
 Row = tuple[float, dict[str, float]]  # time [s] and values by signal
 

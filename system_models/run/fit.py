@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from contact_core import Scene
 from contact_core.errors import ContactError
+from contact_core.kernels.arrays import Array, Indices, Mask
 
 from . import fit_estimate
 from .duty import Duty
 from .fit_data import Measured
-from .fit_estimate import Array, Curve, Estimate, Problem
+from .fit_estimate import Curve, Estimate, Problem
 from .fit_model import Constant, Model, Places, Points
 
 FAST, SLOW = "regression", "deterministic"
@@ -38,7 +39,7 @@ Amend = Callable[[Curve], Curve]
 class Drawn:
     """Curves between the points: places, curve, half widths of its interval and of that of measurements."""
 
-    test: NDArray[np.int64]
+    test: Indices
     time: Array
     quantity: NDArray[np.str_]
     curve: Array
@@ -54,8 +55,8 @@ class Fit:
     level: str
     constants: tuple[Constant, ...]
     measured: Measured
-    held: NDArray[np.bool_]
-    silent: NDArray[np.bool_]  # points that no constant changes, left out
+    held: Mask
+    silent: Mask  # points that no constant changes, left out
     estimate: Estimate
     drawn: Drawn
     stated: dict[str, float]  # largest relative half width that the level states, by quantity
@@ -74,7 +75,7 @@ class Fit:
         return {c.key: c.at(float(x)) for c, x in zip(self.constants, self.estimate.shares, strict=True)}
 
     @property
-    def inside(self) -> NDArray[np.bool_]:
+    def inside(self) -> Mask:
         """Which points are within the interval of a measurement."""
         return np.abs(self.measured.value - self.estimate.curve) <= self.estimate.half
 
@@ -83,7 +84,7 @@ def fit(
     scene: Scene,
     measured: Measured,
     constants: tuple[Constant, ...],
-    held: NDArray[np.bool_],
+    held: Mask,
     level: str = FAST,
     progress: Callable[[str], None] = lambda stage: None,
 ) -> Fit:
@@ -181,12 +182,12 @@ def _sized(scene: Scene, measured: Measured) -> Scene:
     return Duty(tuple(map(float, range(len(measured.tests)))), measured.tests).sized(scene)
 
 
-def _groups(measured: Measured, quantity: NDArray[np.str_]) -> NDArray[np.int64]:
+def _groups(measured: Measured, quantity: NDArray[np.str_]) -> Indices:
     names = list(measured.quantities)
     return np.array([names.index(name) for name in quantity.tolist()], dtype=np.int64)
 
 
-def _check_count(measured: Measured, held: NDArray[np.bool_], constants: tuple[Constant, ...]) -> None:
+def _check_count(measured: Measured, held: Mask, constants: tuple[Constant, ...]) -> None:
     left = int((~held).sum())
     if left <= len(constants):
         raise ContactError(
@@ -203,9 +204,7 @@ def _check_count(measured: Measured, held: NDArray[np.bool_], constants: tuple[C
             )
 
 
-def _silent(
-    measured: Measured, curves: Array, held: NDArray[np.bool_], constants: tuple[Constant, ...]
-) -> NDArray[np.bool_]:
+def _silent(measured: Measured, curves: Array, held: Mask, constants: tuple[Constant, ...]) -> Mask:
     """Return which points no constant changes, by the curves of many sets of constants, the scene's own first.
 
     Raises ContactError if these are all of a quantity, or leave too few.

@@ -22,11 +22,11 @@ from numpy.typing import NDArray
 
 from contact_core import OperatingPoint, Scene
 from contact_core.errors import SceneError
-from contact_core.quantities import INPUTS, OUTPUTS, Quantity, measured_range
+from contact_core.kernels.arrays import Array, Indices, Mask
+from contact_core.quantities import CELSIUS, INPUTS, OUTPUTS, Quantity, measured_range
 
 from . import duty_table
 
-Array = NDArray[np.float64]
 SD = "_sd"  # after the name of an output: its standard deviation
 # a temperature of degC and a difference of K share their unit; errors are not measured
 MEASURABLE = {q.name: q for q in OUTPUTS if q.kind == "Real" and q.unit != "K" and not q.name.startswith("error_")}
@@ -38,7 +38,7 @@ class Measured:
     """Measured numbers in SI, one an entry of each array, by quantity, test and time."""
 
     quantity: NDArray[np.str_]
-    test: NDArray[np.int64]  # index of `tests`
+    test: Indices  # index of `tests`
     time: Array  # [s] since its test began
     value: Array
     sd: Array  # standard deviation; 0: not given
@@ -55,7 +55,7 @@ class Measured:
         """Names of the measured outputs, in the order of the points."""
         return tuple(dict.fromkeys(self.quantity.tolist()))
 
-    def held_back(self, share: float) -> NDArray[np.bool_]:
+    def held_back(self, share: float) -> Mask:
         """Return which points to hold back: about a share of them, one at random of each stretch, always the same."""
         count = min(round(share * len(self)), len(self) - 1)
         held = np.zeros(len(self), np.bool_)
@@ -146,4 +146,4 @@ def _input(name: str, value: float | None) -> str:
     if value is None:
         return f"{name} of the scene"
     q: Quantity = next(q for q in INPUTS if q.name == name)
-    return f"{value - 273.15:.4g} °C" if q.display == "degC" else f"{name} {value:.4g} {q.unit}"
+    return f"{value - CELSIUS:.4g} °C" if q.display == "degC" else f"{name} {value:.4g} {q.unit}"

@@ -20,11 +20,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq, least_squares
 from scipy.stats import norm, qmc, t
 
-Array = NDArray[np.float64]
+from contact_core.kernels.arrays import Array, Indices, Mask
+
 Curve = Callable[[Array], Array]  # shares of the ranges to numbers at all points; NaN where there are none
 
 COVERED = 0.9  # of the intervals
@@ -47,8 +47,8 @@ class Problem:
     curve: Curve
     measured: Array
     sd: Array  # 0: not given
-    group: NDArray[np.int64]  # quantity of each point, from 0
-    fitted: NDArray[np.bool_]
+    group: Indices  # quantity of each point, from 0
+    fitted: Mask
     count: int  # constants
 
 
@@ -81,7 +81,7 @@ class Estimate:
     proportional: tuple[bool, ...]  # by group: the scatter is a share of the curve
     freedom: float
 
-    def about(self, curve: Array, slope: Array, group: NDArray[np.int64], sd: Array) -> tuple[Array, Array]:
+    def about(self, curve: Array, slope: Array, group: Indices, sd: Array) -> tuple[Array, Array]:
         """Return half widths for the curve, and for a measurement with an `sd`, at other places."""
         spread = _spread(slope, self.covariance)
         scatter = np.zeros(len(curve))
@@ -97,7 +97,7 @@ def starts(count: int, number: int) -> Array:
     return found
 
 
-def silent(curves: Array) -> NDArray[np.bool_]:
+def silent(curves: Array) -> Mask:
     """Return at which points curves [set, point] of different constants are all the same."""
     known = curves[~np.isnan(curves).any(axis=1)]
     return np.ptp(known, axis=0) <= 1e-12 * np.abs(known).max(axis=0)
@@ -151,7 +151,7 @@ def _cost(problem: Problem, sigma: Array, curve: Array) -> float:
 
 
 def _minimum(
-    problem: Problem, sigma: Array, begin: Array, free: NDArray[np.bool_] | None = None, close: float = 1e-4
+    problem: Problem, sigma: Array, begin: Array, free: Mask | None = None, close: float = 1e-4
 ) -> tuple[Array, float]:
     """Return shares and sum of squares of a minimum within the ranges, closer than `close`; only `free` ones move."""
     moves = np.ones(len(begin), np.bool_) if free is None else free

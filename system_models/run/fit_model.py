@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_core import OperatingPoint, Scene, advance, initial_state, uncertainty
-from contact_core.errors import ContactError, SceneError
+from contact_core.errors import ContactError, SceneError, did_you_mean
+from contact_core.kernels.arrays import Array, Indices
 from contact_core.scene import units
-from contact_core.scene.toml import did_you_mean
 from contact_core.scene.tunables import tunables, with_values
 
-Array = NDArray[np.float64]
 _DECADE = 10.0  # a range from this factor on is searched by its logarithm
 _EITHER_WAY = {"J": 2.0}  # by unit: range about a value, as a factor; energies are in exponents
 _USUAL = 10.0
@@ -170,7 +169,7 @@ class Model:
 class Places(NamedTuple):
     """Where numbers are taken from curves, one an entry of each array."""
 
-    test: NDArray[np.int64]
+    test: Indices
     time: Array  # [s]
     quantity: NDArray[np.str_]
 
@@ -178,7 +177,7 @@ class Places(NamedTuple):
 class Points:
     """The numbers at given places (test, time, quantity) of a model's curves, or NaN where it has none."""
 
-    def __init__(self, model: Model, test: NDArray[np.int64], time: Array, quantity: NDArray[np.str_]) -> None:
+    def __init__(self, model: Model, test: Indices, time: Array, quantity: NDArray[np.str_]) -> None:
         self.model, self.failures, self.places = model, 0, Places(test, time, quantity)
         self._times = [np.unique(time[test == i]) for i in range(len(model.tests))]
         self._column = np.array([model.quantities.index(name) for name in quantity.tolist()])

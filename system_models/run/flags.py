@@ -9,12 +9,11 @@ import xarray as xr
 
 from contact_core.film.lengths import inlet_length
 from contact_core.laws.load_sharing import sliding_ratio
+from contact_core.quantities import CELSIUS
 from contact_core.regression.load_sharing import Fit, parted, surfaces_of
 from contact_core.regression.surfaces import Tribofilm, regression_film
 from contact_core.scene import Case, OperatingPoint, Scene
 from contact_core.state import RangeFlag
-
-from ..charts.units import CELSIUS
 
 _TEMPERATURES = range(0, 401)  # degC, at which a tribofilm law is asked whether its constants hold
 _IN_WORDS = {  # of the places of the fitted curves

@@ -6,9 +6,10 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from contact_core.kernels.arrays import Array
 from contact_core.quantities import TABLE
 
-from ..charts.chart import Array, Chart, Line, Spans
+from ..charts.chart import Chart, Line, Spans
 from ..charts.units import Unit, negligible, time_unit, unit_for
 from ..store.results import ERROR, half_width
 

@@ -6,6 +6,8 @@ import math
 import numpy as np
 import xarray as xr
 
+from contact_core.quantities import CELSIUS
+
 from ..charts.chart import Sheet, spans_of
 from ..charts.half_widths import Column
 from ..store.results import ASSUMED, half_width
@@ -122,7 +124,7 @@ def _warmth(dataset: xr.Dataset) -> list[str]:
     if all(float(np.abs(dataset[f"temperature_{body}"] - oil).max()) < _WARM for body in (1, 2)):
         return []
     warm = ", ".join(
-        f"body {i} at {float(last[f'temperature_{i}']) - 273.15:.1f} degC with {float(last[f'heat_flow_{i}']):.3g} W"
+        f"body {i} at {float(last[f'temperature_{i}']) - CELSIUS:.1f} degC with {float(last[f'heat_flow_{i}']):.3g} W"
         for i in (1, 2)
     )
     return [f"At the end the bodies take up the heat of friction: {warm}."]

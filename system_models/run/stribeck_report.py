@@ -2,8 +2,9 @@
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
+from contact_core.kernels.arrays import Mask
+from contact_core.quantities import CELSIUS
 from contact_core.state import RangeFlag
 
 from ..charts.chart import GREY, NOTHING, Chart, Line, Sheet, shades
@@ -107,7 +108,7 @@ def sheet(dataset: xr.Dataset) -> Sheet:
     return Sheet([_curves(dataset, panel, unsure) for panel in _PANELS], _title(dataset), height=3.3)
 
 
-def _curves(dataset: xr.Dataset, panel: tuple[str, str, str, tuple[float, ...]], unsure: NDArray[np.bool_]) -> Chart:
+def _curves(dataset: xr.Dataset, panel: tuple[str, str, str, tuple[float, ...]], unsure: Mask) -> Chart:
     name, title, symbol, levels = panel
     first = panel is _PANELS[0]  # that has the key
     values, half = dataset[name].values, dataset.coords.get(f"{name}{ERROR}")
@@ -127,7 +128,7 @@ def _curves(dataset: xr.Dataset, panel: tuple[str, str, str, tuple[float, ...]],
 
 def _title(dataset: xr.Dataset) -> str:
     return (
-        f"{dataset.attrs['scene']}: {float(dataset['load']):.4g} N, {float(dataset['temperature']) - 273.15:.4g} °C, "
+        f"{dataset.attrs['scene']}: {float(dataset['load']):.4g} N, {float(dataset['temperature']) - CELSIUS:.4g} °C, "
         f"slide-to-roll ratio {100.0 * float(dataset['slide_roll_ratio']):.3g} %, "
         f"level {dataset.attrs['film']}"
     )

@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ..charts.chart import COLOURS, GREY, Array, Chart, Line, Map, Sheet, shades
+from contact_core.kernels.arrays import Array
+
+from ..charts.chart import COLOURS, GREY, Chart, Line, Map, Sheet, shades
 from ..charts.units import time_unit, unit_for
 from .maps import ALONG, TIME
 from .panels import TRIBOFILM, Panel, chart

@@ -9,11 +9,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_core.errors import ContactError
-
-Array = NDArray[np.float64]
+from contact_core.kernels.arrays import Array
 
 SEED = 1  # of samples
 METHODS = ("lhs", "sobol", "indices")

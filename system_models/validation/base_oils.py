@@ -4,6 +4,7 @@ import csv
 from importlib.resources import files
 
 from contact_core.laws.viscosity import AstmD341
+from contact_core.quantities import CELSIUS
 from contact_core.scene.bases import base_of
 
 from .model import Comparison, Kind, Outcome, Row, exactly, relative
@@ -23,7 +24,7 @@ def _row(measured: dict[str, str]) -> Row:
     base, celsius = base_of(measured["base"]), float(measured["temperature_C"])
     value, provenance = float(measured["coefficient_per_GPa"]), measured["provenance"]
     cold, hot = (1e-6 * float(measured[f"viscosity_{at}_mm2s"]) for at in (40, 100))
-    sheet = AstmD341(cold, hot, float(measured["density_15"]), 0.0, celsius + 273.15)
+    sheet = AstmD341(cold, hot, float(measured["density_15"]), 0.0, celsius + CELSIUS)
     computed, known = 1e9 * base.oil(sheet).pressure_coefficient, _KNOWN[provenance]
     return Row(
         f"{measured['oil']} at {celsius:g} degC", "1/GPa", exactly(value), computed, relative(value, known),

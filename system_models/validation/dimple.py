@@ -4,8 +4,9 @@ import numpy as np
 
 from contact_core import Scene, initial_state, march
 from contact_core.deterministic.transient import rolled
+from contact_core.kernels.arrays import Array
 
-from .model import Array, Comparison, Kind, Outcome, Row, compared, exactly, relative, rounding
+from .model import Comparison, Kind, Outcome, Row, compared, exactly, relative, rounding
 from .tables import read
 
 DIMPLE = {2: -87e-6, 3: -49e-6, 4: 24e-6, 5: 113e-6}  # m: middle of the dimple in each profile; not in the first one

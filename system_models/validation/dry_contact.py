@@ -3,9 +3,10 @@
 import numpy as np
 
 from contact_core import dry_contact
+from contact_core.kernels.arrays import Array
 from contact_core.reference import hertz_point
 
-from .model import Array, Comparison, Kind, Outcome, Row, compared, exactly
+from .model import Comparison, Kind, Outcome, Row, compared, exactly
 
 LOAD, RADIUS, MODULUS, ACCURACY = 50.0, 9.525e-3, 2.3e11, 0.01
 NODES = 65

@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from contact_core.kernels.arrays import Array
 from contact_core.kernels.moving_source import MovingSurface
 from contact_core.reference import jaeger_circle, tian_kennedy_circle
 
-from .model import Array, Comparison, Kind, Outcome, Row, compared, exactly
+from .model import Comparison, Kind, Outcome, Row, compared, exactly
 
 CONDUCTIVITY, DIFFUSIVITY, RADIUS = 46.0, 1.25e-5, 1e-5  # W/(m K), m2/s, m
 PECLETS = (0.1, 1.0, 10.0, 100.0)  # of the radius: u r / (2 kappa)

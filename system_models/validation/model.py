@@ -5,7 +5,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from ..charts.chart import BLACK, Array, Chart, Line
+from contact_core.kernels.arrays import Array
+
+from ..charts.chart import BLACK, Chart, Line
 
 _FEW = 10  # points that are marked
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from contact_core.quantities import CELSIUS
 from contact_core.scene import Lubricant
 from contact_core.scene.toml import build
 
@@ -21,7 +22,7 @@ def run() -> Outcome:
     for name, (kinematic, density) in OILS.items():
         law = build(Lubricant, {"set": name}, "lubricant").viscosity
         for nu, celsius in zip(kinematic, (40.0, 100.0), strict=True):
-            kelvin = celsius + 273.15
+            kelvin = celsius + CELSIUS
             sheet = nu * density * (1.0 - EXPANSION * (celsius - 15.6)) * 1e-3  # mPa s
             low, found, high = (
                 1e3 * float(law(np.zeros(1), np.array([t]))[0]) for t in (kelvin - 0.5, kelvin, kelvin + 0.5)

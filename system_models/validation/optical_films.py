@@ -6,9 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_core import ConvergenceError, point_contact
+from contact_core.kernels.arrays import Array
 from contact_core.laws.viscosity import AstmD341
+from contact_core.quantities import CELSIUS
 
-from .model import Array, Comparison, Kind, Outcome, Row, compared, exactly
+from .model import Comparison, Kind, Outcome, Row, compared, exactly
 from .tables import read
 
 BALL, MODULUS = 9.525e-3, 2.0 / ((1.0 - 0.3**2) / 207e9 + (1.0 - 0.22**2) / 75e9)  # m; Pa, steel on glass
@@ -52,7 +54,7 @@ def films(coefficient: float, grid: int = 129, rows: Sequence[dict[str, float]] 
     oil = AstmD341(67.0e-6, 18.9e-6, DENSITY, coefficient, 304.65)
     rows, found = rows or read("optical_films.csv"), []
     for row in rows:
-        viscosity = float(oil(0.0, row["oil_temperature_degC"] + 273.15))
+        viscosity = float(oil(0.0, row["oil_temperature_degC"] + CELSIUS))
         speed = row["entrainment_speed_mm_s"] * 1e-3
         answer = point_contact(
             load=row["load_N"], radius_x=BALL, reduced_modulus=MODULUS, speed_1=speed, speed_2=speed,

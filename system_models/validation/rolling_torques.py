@@ -6,6 +6,7 @@ from typing import NamedTuple
 from scipy.optimize import brentq
 
 from contact_core import OperatingPoint, Outputs, Scene, advance, initial_state
+from contact_core.quantities import CELSIUS
 
 from .model import Cause, Comparison, Kind, Outcome, Row, exactly, relative
 from .tables import read
@@ -54,7 +55,7 @@ def tapered_rollers(row: dict[str, float], inlet: str = "gupta", layer: float | 
     speed = 0.25 * turn * PITCH * (1.0 - share**2)  # of the rollers' pitch circle past either raceway
     point = OperatingPoint(
         load=row["axial_N"] / (ROLLERS * math.sin(OUTER)), speed_1=speed, speed_2=speed,
-        temperature=row["oil_degC"] + 273.15,
+        temperature=row["oil_degC"] + CELSIUS,
     )  # fmt: skip
     torque, error = 0.0, 0.0
     for side in (-1.0, 1.0):  # inner and outer raceway

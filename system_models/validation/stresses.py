@@ -3,8 +3,9 @@
 import numpy as np
 
 from contact_core import subsurface_stress
+from contact_core.kernels.arrays import Array
 
-from .model import Array, Comparison, Kind, Outcome, Row, compared, exactly
+from .model import Comparison, Kind, Outcome, Row, compared, exactly
 
 CELLS = 24  # across the half width
 DEPTHS = np.arange(0.2, 1.21, 0.02)  # over the half width

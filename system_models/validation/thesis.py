@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from contact_core import Outputs, Scene, advance, initial_state
+from contact_core.kernels.arrays import Array
 from contact_core.reference import SmoothContact, ghanbarzadeh_thickness, hamrock_dowson
 
-from .model import Array, Cause, Comparison, Kind, Outcome, Row, compared, exactly
+from .model import Cause, Comparison, Kind, Outcome, Row, compared, exactly
 
 STEP, STEPS = 60.0, 120  # s
 LATE = 0.9  # of the largest film: established

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from contact_core import Scene, advance, initial_state
+from contact_core.quantities import CELSIUS
 from contact_core.state import Outputs
 
 from .model import Cause, Comparison, Kind, Outcome, Row, exactly, relative
@@ -50,7 +51,7 @@ class Point:
     temperature: float
 
     def __str__(self) -> str:
-        warm = f"{self.temperature - 273.15:.0f} degC"
+        warm = f"{self.temperature - CELSIUS:.0f} degC"
         return f"{self.oil}, {self.pressure * 1e-9:.2g} GPa, {warm}, {self.speed:g} m/s"
 
     def curve(self, ratios: tuple[float, ...], changes: Mapping[str, str] | None = None) -> list[Outputs]:
@@ -117,7 +118,7 @@ def ceilings() -> list[tuple[Point, float]]:
     for row in read("traction_mineral.csv"):
         mean = 1e9 * row["pressure_mean_GPa"]
         for oil in _CEILINGS:
-            point = Point(oil, mean / MEAN, _CEILING_SPEED, row["oil_temperature_degC"] + 273.15)
+            point = Point(oil, mean / MEAN, _CEILING_SPEED, row["oil_temperature_degC"] + CELSIUS)
             found.append((point, 1e6 * row["largest_shear_stress_MPa"] / mean))
     return found
 

@@ -8,7 +8,7 @@ from comparison import approx
 
 from contact_core import ContactState, OperatingPoint, Outputs, RangeFlag, Scene, advance, initial_state
 from contact_core.corrections import blocks as by_blocks
-from contact_core.corrections.moved import Deviation, moved
+from contact_core.corrections.correction import Deviation, moved
 from contact_core.errors import ConvergenceError
 from contact_core.regression.contact import evaluate
 from contact_core.regression.surfaces import tribofilms_of

@@ -10,7 +10,8 @@ import xarray as xr
 from comparison import approx
 
 from contact_core import OperatingPoint, Outputs, RangeFlag, Scene, advance, initial_state
-from contact_core.corrections.kriging import CORRECTED, pair_of
+from contact_core.corrections.correction import CORRECTED
+from contact_core.corrections.kriging import pair_of
 from contact_core.scene import Case
 from system_models.machines import corrected as machines
 from system_models.machines.assembly import Contact

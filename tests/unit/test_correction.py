@@ -5,20 +5,20 @@ import pytest
 from comparison import approx
 
 from contact_core import Scene
+from contact_core.corrections.correction import CORRECTED
 from contact_core.corrections.kriging import (
-    CORRECTED,
     CORRELATIONS,
     NO_KNOTS,
     Conditioned,
+    Conditioner,
     Knots,
-    Place,
-    conditioned,
     covariance,
     knots,
     nearness,
     pair_of,
     place,
 )
+from contact_core.corrections.places import Place
 
 FAST = {
     "friction_coefficient": 0.08, "h_c": 50e-9, "contact_load_ratio": 0.4,
@@ -36,7 +36,7 @@ OUTPUTS = list(CORRECTED)
 
 def told(given: Knots, where: Place = HERE, pair: str = "a") -> dict[str, float]:
     """What knots make of FAST at a place."""
-    found = conditioned(given, np.array([pair], object), np.array([where], float)).of(FAST)
+    found = Conditioner(given).at(np.array([pair], object), np.array([where], float)).of(FAST)
     return {name: float(np.squeeze(value)) for name, value in found.items()}
 
 
@@ -66,7 +66,7 @@ def test_a_solution_tells_the_less_the_less_sure_it_is(name: str) -> None:
     shared = 1.0 - law.nugget  # of two contacts in one place
     for own, told_of in ((0.0, 1.0), (1.0, 0.5), (1e4, 0.0)):
         given = Knots(np.array(["a"], object), np.array([HERE]), np.full((1, 3), 0.4), np.full((1, 3), own))
-        found = conditioned(given, given.pairs, given.places)
+        found = Conditioner(given).at(given.pairs, given.places)
         assert found.mean[0, k] == approx(0.4 * told_of * shared, abs=1e-6)
         left = law.wider * (1.0 - told_of * shared**2) ** 0.5
         assert found.left[0, k] == approx(min(left, 1.0), abs=1e-6)
@@ -143,7 +143,7 @@ def test_half_widths_never_grow_with_more_knots() -> None:
     for count in (1, 5, 15, 30):
         pairs = np.array(["a", "b"] * 15, object)[:count]
         given = Knots(pairs, places[:count], off[:count], np.full((count, 3), 0.1))
-        left = conditioned(given, pair, at).left
+        left = Conditioner(given).at(pair, at).left
         assert (left <= before + 1e-12).all()
         before = left
     assert (before < 0.99).any()
@@ -153,7 +153,7 @@ def test_solutions_that_deviate_by_more_than_was_stated_leave_more_but_no_more_t
     draw = np.random.default_rng(2)
     places, pairs = draw.normal(0.0, 0.3, (8, 5)), np.full(8, "a", object)
     lefts = [
-        conditioned(Knots(pairs, places, off * draw.normal(0.0, 0.5, (8, 3)), np.zeros((8, 3))), pairs, places).left
+        Conditioner(Knots(pairs, places, off * draw.normal(0.0, 0.5, (8, 3)), np.zeros((8, 3)))).at(pairs, places).left
         for off in (0.1, 3.0, 100.0)
     ]
     assert (lefts[0] < lefts[1]).all()
@@ -189,7 +189,7 @@ def test_half_widths_cover_19_in_20_of_synthetic_truths_and_not_if_they_were_a_t
         known = np.full((12, 3), np.nan)
         known[:, 0] = off[:12]
         given = Knots(pairs[:12], places[:12], known, np.zeros((12, 3)))
-        found = conditioned(given, pairs[12:], places[12:])
+        found = Conditioner(given).at(pairs[12:], places[12:])
         covered += (np.abs(off[12:] - found.mean[:, 0]) <= part * found.left[:, 0]).tolist()
         lefts += found.left[:, 0].tolist()
     assert least <= np.mean(covered) <= most

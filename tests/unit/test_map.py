@@ -11,7 +11,7 @@ from comparison import approx
 from mapped_scene import NOISE, chart, drawn, histories, knots, mapped_scene, scene_of
 
 from contact_core import Error, OperatingPoint, Outputs, RangeFlag, Scene, advance, initial_state, uncertainty
-from contact_core.corrections.fitting import Rule, design, left_out, predicted, spread_at, widths_at
+from contact_core.corrections.fitting import Rule, bounded, design, left_out, spread_at, widths_at
 from contact_core.corrections.knot import _knot, contact_of, samples_of
 from contact_core.corrections.map import Map, digest_of, read, shipped_maps
 from contact_core.corrections.query import half_widths_of, here, leverage, told, total, trusted
@@ -32,7 +32,7 @@ def test_a_query_is_the_polynomials_that_were_fitted() -> None:
     scene, found = scene_of(), knots(40)
     samples = samples_of(scene, histories(5))
     columns, wide = design(chart(), samples.places), spread_at(chart(), samples.places)
-    off, alone = predicted(chart(), samples), widths_at(chart(), samples.places)
+    off, alone = bounded(columns @ np.array(chart().weights).T, samples.shares), widths_at(chart(), samples.places)
     for k, knot in enumerate(found):
         case, contact = contact_of(scene, knot)
         place = here(chart(), case, contact)

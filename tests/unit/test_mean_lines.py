@@ -11,7 +11,7 @@ from contact_core import OperatingPointError, RangeFlag, Scene, advance, initial
 from contact_core.laws.load_sharing import FittedSharing
 from contact_core.laws.rheology import Newtonian
 from contact_core.reference import SmoothLine, hertz_line, hertz_point, moes_line
-from contact_core.regression.oil import oil_shear
+from contact_core.regression.oil import OilFriction
 from contact_core.surfaces.patches import across_track
 
 FACE, LOAD = 8e-3, 2000.0
@@ -74,9 +74,10 @@ def test_the_mean_over_a_strip_is_that_of_many_nodes(fall):
     for hertz, weight in ((strip, np.ones_like(part)), (ellipse, 2.0 * part)):
         local = np.sqrt(1.0 - part[:, None] ** 2) * pressures
         shear = scene.lubricant.rheology(scene.lubricant.viscosity(local, warm) * rates, local * grips * left)
-        assert oil_shear(scene, hertz, pressures, rates, grips, warm) == approx(
-            (weight[:, None] * shear).mean(axis=0), rel=1e-2
+        oil = OilFriction(
+            scene.lubricant.viscosity, scene.lubricant.rheology, hertz, np.ones(2), pressures, rates, grips
         )
+        assert oil.shear(warm) == approx((weight[:, None] * shear).mean(axis=0), rel=1e-2)
 
 
 @pytest.mark.parametrize("heat", ["flash", "field"])

@@ -57,7 +57,7 @@ def test_a_scene_without_heat_and_thinning_calls_nothing_of_them(monkeypatch):
 
     for module, name in (
         (oil_module, "eased"),
-        (oil_module, "solve_thinning"),
+        (oil_module, "Agreement"),
         (thinning, "stress_of_flow"),
         (moving_source, "moving_influence"),
         (oil_module, "inlet_factor"),

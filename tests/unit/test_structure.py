@@ -57,43 +57,53 @@ def statements(node: ast.AST) -> int:
     )
 
 
-def long_parts(tree: ast.AST) -> list[str]:
+def long_parts(tree: ast.AST, *, kernels: bool = False) -> list[str]:
     """Return the names of classes and functions of a file that are too long or take too many arguments.
 
-    Compiled kernels are loops over nodes that take their arrays one by one, and may be longer.
+    Compiled kernels are loops over nodes: they may be longer, and in `contact_core/kernels` they take their arrays one
+    by one. What must be named may be left out by name, so that more arguments are bearable.
     """
     found = []
     for node in ast.walk(tree):
-        if isinstance(node, ast.ClassDef) and statements(node) > 250:
-            found.append(f"class {node.name}: {statements(node)} statements")
+        if isinstance(node, ast.ClassDef):
+            lines = node.end_lineno - node.lineno + 1  # type: ignore[operator]
+            if lines > 250:
+                found.append(f"class {node.name}: {lines} lines")
         if isinstance(node, ast.FunctionDef):
             compiled = any("jit" in ast.unparse(each) for each in node.decorator_list)
             given = node.args
             own = [each for each in (*given.posonlyargs, *given.args) if each.arg not in ("self", "cls")]
             if statements(node) > (100 if compiled else 60):
                 found.append(f"{node.name}: {statements(node)} statements")
-            if len(own) > 10 and not compiled:  # by position; what must be named may be left out by name
-                found.append(f"{node.name}: {len(own)} arguments")
+            if len(own) > 10 and not compiled:
+                found.append(f"{node.name}: {len(own)} arguments by position")
+            if len(own) + len(given.kwonlyargs) > 12 and not kernels:
+                found.append(f"{node.name}: {len(own) + len(given.kwonlyargs)} arguments")
     return found
 
 
 def test_classes_and_functions_are_small_and_take_few_arguments() -> None:
-    found = {file.name: long_parts(tree_of(file)) for file in FILES}
+    found = {file.name: long_parts(tree_of(file), kernels=CORE / "kernels" in file.parents) for file in FILES}
     assert {name: parts for name, parts in found.items() if parts} == {}
 
 
 @pytest.mark.parametrize(
     ("text", "parts"),
     [
-        ("class A:\n" + "    x = 1\n" * 251, ["class A: 252 statements"]),
+        ("class A:\n" + "    x = 1\n" * 250, ["class A: 251 lines"]),
+        ("class A:\n" + "    x = 1\n" * 249, []),
         ("def f():\n" + "    x = 1\n" * 60, ["f: 61 statements"]),
         ("@jit\ndef f(a, b, c, d, e, f, g, h, i, j, k):\n" + "    x = 1\n" * 60, []),
-        ("def f(a, b, c, d, e, f, g, h, i, j, k):\n    pass", ["f: 11 arguments"]),
+        ("@jit\ndef f(a, b, c, d, e, f, g, h, i, j, k, l, m):\n    pass", ["f: 13 arguments"]),
+        ("def f(a, b, c, d, e, f, g, h, i, j, k):\n    pass", ["f: 11 arguments by position"]),
+        ("def f(*, a, b, c, d, e, f, g, h, i, j, k, l, m):\n    pass", ["f: 13 arguments"]),
         ("class A:\n    def f(self, *, a, b, c, d, e, f, g, h, i, j, k):\n" + '        """' + "\n" * 99 + '"""', []),
     ],
 )
 def test_long_parts_are_found(text: str, parts: list[str]) -> None:
     assert long_parts(ast.parse(text)) == parts
+    in_kernels = [part for part in parts if not part.endswith("13 arguments")]
+    assert long_parts(ast.parse(text), kernels=True) == in_kernels
 
 
 def test_few_rooms_of_the_core_import_each_other() -> None:
@@ -102,7 +112,7 @@ def test_few_rooms_of_the_core_import_each_other() -> None:
         room = file.relative_to(CORE).parts[0].removesuffix(".py")
         arrows |= {(room, other) for other in imported(file)} if room != "__init__" else set()
     arrows = {(room, other) for room, other in arrows if room != other}
-    assert 40 < len(arrows) <= 90, sorted(arrows)
+    assert 40 < len(arrows) <= 80, sorted(arrows)
 
 
 def functions() -> list[tuple[str, ast.FunctionDef]]:

@@ -1,12 +1,8 @@
 """Prediction of a film after its rough surfaces have moved."""
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import Array
 from ..compiled import jit
 from .problem import Iterate
-
-Array = NDArray[np.float64]
 
 _CARRIED = 0.3  # pressure of smooth bodies above which the pattern of the rough ones moves along with them
 

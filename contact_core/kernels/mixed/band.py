@@ -8,11 +8,9 @@ from collections.abc import Callable
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from ..arrays import Array, Indices
 from ..compiled import jit
-
-Array = NDArray[np.float64]
 
 _WIDE = 64  # nodes on either side that a node is coupled to
 
@@ -47,7 +45,7 @@ def band_inverse(
     by_h: Array,
     scale: Array,
     response: Array,
-    nodes: NDArray[np.int64],
+    nodes: Indices,
     held: Array,
     give: Array,
     edge: Array,

@@ -15,15 +15,12 @@ doi:10.1115/1.4002215 (complementarity).
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..compiled import jit
 from .edge import wrap
 from .flow import Flow
 from .problem import Problem
-
-Array = NDArray[np.float64]
-
 
 FADE = 4.0  # how fast the second order fades with the emptiness of the node upstream
 # least share of a node's mass that flows on: at second order oil would flow back where a film falls to under half of

@@ -9,9 +9,9 @@ accelerates it.
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..anderson import Anderson
+from ..arrays import Array
 from ..compiled import jit
 from ..giving_half_space import GivingHalfSpace
 from ..half_space import HalfSpace
@@ -22,10 +22,6 @@ from .edge import load_beyond, set_edge, wrap
 from .flow import Flow
 from .problem import Iterate, Problem, Solution, failed
 from .stopping_rule import allowed_imbalance, shortfall
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-
 
 _DEPTH = 3  # of Anderson's memory: more does not help where contacts change
 _SWEEPS_UNDER_CONTACTS = 6

@@ -37,13 +37,10 @@ j + 1.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..compiled import jit
 from .problem import Problem
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 
 def _cubic(x: float) -> tuple[float, float, float, float]:

@@ -14,8 +14,8 @@ A film that is found satisfies the stopping rule with no node held, for changes 
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Mask
 from ..compiled import jit
 from ..half_space import HalfSpace
 from . import corrections, reynolds
@@ -25,8 +25,6 @@ from .flow import properties
 from .pockets import fill_pockets
 from .problem import Iterate, Problem, Solution, failed
 from .stopping_rule import excess
-
-Mask = NDArray[np.bool_]
 
 _LOOKS = 16  # at the undamped film, at most, without convergence before
 _DEPTH, _DAMPING, _STIFF_STEP = 2, 0.2, 0.4  # of Anderson's memory; part of a step that is taken; of stiff nodes

@@ -7,10 +7,8 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
+from ..arrays import Array, Indices
 
 _LINEAR_TOLERANCE = 1e-2
 _KRYLOV = 40  # most GMRES steps; no restart

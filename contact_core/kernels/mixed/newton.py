@@ -18,8 +18,8 @@ from collections.abc import Callable
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from ..arrays import Array, Indices, Mask
 from ..compiled import jit
 from ..half_space import HalfSpace
 from . import cavities, linearisation, reynolds
@@ -31,10 +31,6 @@ from .flow import Flow, node_pass
 from .linear_solver import elimination_order, gmres
 from .problem import Iterate, Problem, Solution, failed
 from .stopping_rule import allowed_imbalance, shortfall
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-Indices = NDArray[np.int64]
 
 _SWEEPS_UNDER_CONTACTS = 6
 _SWEEPS_AT_CAVITY = 30

@@ -5,12 +5,9 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array, Mask
 from ..convergence import SolverConvergence
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 
 class Tables(NamedTuple):

@@ -6,13 +6,10 @@ Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2003) 865, doi:10.1137/S1052623
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..compiled import jit
 from ..half_space import influence
-
-Array = NDArray[np.float64]
-
 
 ACROSS, ALONG = 3, 5  # rows and columns of the nodes that a node's balance looks at
 

@@ -11,15 +11,13 @@ Multilevel Methods in Lubrication, Elsevier 2000.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..far_field import far_field
 from ..mixed.problem import Iterate, Problem, Solution
 from ..mixed.stopping_rule import STEADY_IMBALANCE_PER_TOLERANCE, shortfall
 from . import transfer
 from .level import Level
-
-Array = NDArray[np.float64]
 
 _COARSEST = 9  # nodes along an axis, at least
 _DENSE = 400  # unknowns that Newton's method is given at most

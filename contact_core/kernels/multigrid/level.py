@@ -4,15 +4,13 @@ import threading
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..half_space import HalfSpace, influence
 from ..mixed.flow import Flow
 from ..mixed.problem import Problem
 from . import blended, coarsest, relaxation, transfer
 from .mirrored import MirroredHalfSpace
-
-Array = NDArray[np.float64]
 
 _KEPT = 32  # grids whose plans and scratch are kept
 _LARGEST_STEP = 0.5  # of a pressure by Newton's method

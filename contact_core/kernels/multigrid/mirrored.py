@@ -8,12 +8,10 @@ doi:10.1016/0022-460X(70)90075-1.
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..compiled import jit
 from ..half_space import influence
-
-Array = NDArray[np.float64]
 
 
 @jit

@@ -6,6 +6,7 @@
     sources       functions of Python: trees, names, texts
     library       what functions of Python, math and numpy are in C
     conditions    comparisons, `and`, `or`, `not`, choices
+    names         names of a scope of Python
     expressions   other expressions of Python
     loops         loops that stay loops
     results       what C functions return
@@ -21,14 +22,15 @@
     declarations  variables begin with their first value
     passes        what is made of the statements of a C function
     interpreter   statements of Python
-    functions     calls, and C functions: one for each way in which a Python function is used
+    functions     C functions: one for each way in which a Python function is used
+    translator    calls, and what programs are written from
 
 Nothing here knows contacts: `fmu_src.native.program` says what is written.
 """
 
 from .code import c_type, declared, wrapped
-from .functions import Entry, Translator
 from .grids import Stored
+from .translator import Entry, Translator
 from .values import Num, Untranslatable, array_kind, is_number, leaves, literal, parts, replaced
 
 __all__ = [

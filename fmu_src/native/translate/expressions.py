@@ -1,7 +1,6 @@
 """Expressions of Python: what is known is computed, what is not becomes C."""
 
 import ast
-import builtins
 import dataclasses
 import inspect
 import operator
@@ -12,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from . import grid_library, grid_parts, grids
-from .conditions import Conditions
-from .grids import Derived, Grid, Stored, View
+from .grids import Grid
 from .library import ALWAYS, ARRAY_METHODS, HANDLERS, elementwise
-from .sources import calls, is_compiled, names_set, takers
-from .units import Poison, Text, Unit, Writer
+from .names import NamesOfScope
+from .sources import calls
+from .units import Text
 from .values import Closure, Method, Num, Untranslatable, is_dynamic, is_number, literal
 
 _OPERATORS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
@@ -42,11 +41,8 @@ class Super:
         self.cls, self.owner = cls, owner
 
 
-class Expressions(Conditions):
-    """The names of a scope of Python, and the values of expressions in it."""
-
-    def __init__(self, translator: Writer, unit: Unit, names: dict[str, Any], closure: Closure) -> None:
-        self.translator, self.unit, self.names, self.closure = translator, unit, names, closure
+class Expressions(NamesOfScope):
+    """The values of expressions of Python in a scope."""
 
     def value(self, node: ast.expr) -> Any:
         """Return the value of an expression."""
@@ -54,70 +50,6 @@ class Expressions(Conditions):
         if found is None:
             raise Untranslatable(f"no {type(node).__name__} here: {ast.unparse(node)}")
         return found(node)
-
-    def bind(self, target: ast.expr, value: Any) -> None:
-        """Bind names to a value."""
-        if isinstance(target, ast.Name):
-            if isinstance(value, np.ndarray) and self._sets(target.id, value):
-                value = grids.copied(self.unit, value, target.id)
-            self.names[target.id] = self.unit.named(target.id, value)
-        elif isinstance(target, ast.Tuple):
-            items = [self._kept(item) for item in self.listed(value)]
-            starred = [i for i, each in enumerate(target.elts) if isinstance(each, ast.Starred)]
-            if starred:
-                at, rest = starred[0], len(target.elts) - starred[0] - 1
-                items = [*items[:at], items[at : len(items) - rest], *items[len(items) - rest :]]
-            for each, item in zip(target.elts, items, strict=True):
-                self.bind(each.value if isinstance(each, ast.Starred) else each, item)
-        elif isinstance(target, ast.Subscript) and isinstance(target.value, ast.Name) and self._is_entry(target):
-            owner, key = target.value.id, self.value(target.slice)
-            self.names[owner] = {**self.lookup(owner), key: self.unit.named(str(key), value)}
-        elif isinstance(target, ast.Subscript) and isinstance(owner := self.value(target.value), Stored | View):
-            grid_parts.put(self.unit, owner, self.value(target.slice), value)
-        else:
-            raise Untranslatable(f"an assignment to {ast.unparse(target)}: bind a name instead")
-
-    def listed(self, value: Any) -> list[Any]:
-        """Return the items of a value, of an array its elements or rows."""
-        return list(grids.stored(self.unit, value) if isinstance(value, Derived) else value)
-
-    def _kept(self, value: Any) -> Any:
-        """Return a number that the next assignment or call does not change."""
-        if isinstance(value, Num) and self.unit.may_change(value.text):
-            return self.unit.let("value", value)
-        return value
-
-    def _sets(self, name: str, array: np.ndarray) -> bool:
-        """Return True if a function may set elements of an array by this name."""
-        if array.ndim == 0:
-            return False
-        return is_compiled(self.closure.node) or name in names_set(self.closure.node) or self._is_handed_over(name)
-
-    def _is_handed_over(self, name: str) -> bool:
-        """Return True if a compiled function gets an array by this name: it may set elements."""
-        seen = self.closure.names | self.closure.module
-        return any(hasattr(seen.get(function), "py_func") for function in takers(self.closure.node, name))
-
-    def _is_entry(self, target: ast.Subscript) -> bool:
-        return isinstance(self.value(target.value), dict) and not is_dynamic(self.value(target.slice))
-
-    def lookup(self, name: str) -> Any:
-        """Return what a name stands for."""
-        for names in (self.names, self.closure.names, self.closure.module):
-            if name in names:
-                if isinstance(names[name], Poison):
-                    raise Untranslatable(f"'{name}': {names[name].reason}")
-                return names[name]
-        if not hasattr(builtins, name):
-            raise Untranslatable(f"'{name}' is not bound here")
-        return getattr(builtins, name)
-
-    def _of_Name(self, node: ast.Name) -> Any:
-        return self.lookup(node.id)
-
-    def _of_NamedExpr(self, node: ast.NamedExpr) -> Any:
-        self.bind(node.target, self.value(node.value))
-        return self.lookup(node.target.id)
 
     def _of_Constant(self, node: ast.Constant) -> Any:
         return node.value
@@ -135,7 +67,7 @@ class Expressions(Conditions):
                 found.extend(self.value(each.value))
             else:
                 value = self.value(each)
-                found.append(self._kept(value) if any(map(calls, nodes[i + 1 :])) else value)
+                found.append(self.kept(value) if any(map(calls, nodes[i + 1 :])) else value)
         return found
 
     def _of_Dict(self, node: ast.Dict) -> Any:
@@ -179,7 +111,7 @@ class Expressions(Conditions):
 
     def _of_BinOp(self, node: ast.BinOp) -> Any:
         left = self.value(node.left)
-        return self.operated(node.op, self._kept(left) if calls(node.right) else left, self.value(node.right))
+        return self.operated(node.op, self.kept(left) if calls(node.right) else left, self.value(node.right))
 
     def operated(self, op: ast.operator, one: Any, other: Any) -> Any:
         """Return one value, an operator and another."""

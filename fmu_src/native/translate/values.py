@@ -6,7 +6,7 @@ import functools
 import math
 import operator
 from collections.abc import Callable, Iterable
-from types import FunctionType
+from types import FunctionType, MethodType
 from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
@@ -472,6 +472,8 @@ def signature(value: Any) -> Any:
         return id(value.node), tuple((name, signature(item)) for name, item in value.names.items())
     if isinstance(value, FunctionType):
         return id(value.__code__), tuple(signature(cell.cell_contents) for cell in value.__closure__ or ())
+    if isinstance(value, MethodType):
+        return signature(value.__func__), signature(value.__self__)
     if value is None or isinstance(value, bool | int | float | str):
         return type(value), repr(value)
     if isinstance(value, np.ndarray):

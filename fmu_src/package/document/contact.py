@@ -8,6 +8,7 @@ import numpy as np
 
 from contact_core.assumed import HEADS, assumed, told
 from contact_core.errors import ContactError
+from contact_core.quantities import CELSIUS
 from contact_core.scene import Scene, SelfAffine, Surface
 
 from ...flavours import Flavour
@@ -15,8 +16,6 @@ from ...html.markup import bullets, heading, number, paragraph, table, text
 from ...variables import FIDELITY
 from . import measured
 from .levels import LEVELS
-
-_CELSIUS = 273.15  # K
 
 # levels whose measured errors and costs are those of another: of steps without a block, and outside a map
 _MEASURED = {"auto": "regression", "map": "regression"}
@@ -53,7 +52,7 @@ def data(scene: Scene, flavour: Flavour) -> Iterator[str]:
         ),
         ("reference operating point: load", number(point.load, "N")),
         ("speeds of body 1 and 2", _numbers(1.0, (point.speed_1, point.speed_2), "m/s")),
-        ("oil temperature", number(point.temperature - _CELSIUS, "°C")),
+        ("oil temperature", number(point.temperature - CELSIUS, "°C")),
         ("Hertz contact: half width along x", number(1e6 * hertz.a, "µm")),
         *([("Hertz contact: half width along y", number(1e6 * hertz.b, "µm"))] if bodies.face_width is None else []),
         ("Hertz contact: maximum pressure", number(1e-9 * hertz.pressure_max, "GPa")),
@@ -175,7 +174,7 @@ def _temperatures(scene: Scene) -> str:
     """Return the range of bulk temperatures for which the constants of the tribofilm hold, to a degree."""
     tried = np.arange(230.0, 500.0, 0.1)
     held = [t for t in tried if scene.tribofilm.covers(float(t))]
-    low, high = (round(t - _CELSIUS) for t in (held[0], held[-1]))
+    low, high = (round(t - CELSIUS) for t in (held[0], held[-1]))
     return "any" if len(held) == len(tried) else f"{low} to {high} °C"
 
 

@@ -15,12 +15,11 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from contact_core.kernels.arrays import Array
 
 from .geometry import BallBearingGeometry
-from .kernels import BALANCED, cage, settle
-
-Array = NDArray[np.float64]
+from .kernels import BALANCED, Bearing, cage, settle
 
 _CENTRING = 1e-2  # N/m: holds the ring where no ball does, such as in its clearance
 
@@ -75,29 +74,16 @@ def solve(
     answer is the same to rounding.
     """
     count, arm = geometry.balls, geometry.groove_centre_radius
-    fixed = _fixed(geometry)
     azimuth: Array = np.array([first_ball + 2.0 * math.pi * j / count for j in range(count)])
     known = np.zeros(5 + 2 * count) if start is None else np.array(start)
-    ring, inertia, balls = known[:5].copy(), known[5:].reshape(count, 2).copy(), fixed.balls.copy()
+    ring, inertia, balls = known[:5].copy(), known[5:].reshape(count, 2).copy(), _seats(geometry)
     forces = np.array([loads.x, loads.y, loads.z, loads.moment_y / arm, loads.moment_z / arm])
     found = np.empty((count, 11))
     centring = _CENTRING + np.array([0.0, 0.0, 0.0, *2 * [tilt_stiffness / arm**2]])
-    left, largest, steps = settle(
-        ring,
-        balls,
-        inertia,
-        np.stack([np.cos(azimuth), np.sin(azimuth)], axis=1),
-        fixed.centre,
-        fixed.springs,
-        forces,
-        centring,
-        fixed.holds,
-        geometry.ratio,
-        fixed.idle,
-        fixed.masses,
-        speed,
-        found,
+    bearing = _fixed(geometry)._replace(
+        azimuths=np.stack([np.cos(azimuth), np.sin(azimuth)], axis=1), centring=centring
     )
+    left, largest, steps = settle(ring, balls, inertia, bearing, forces, speed, found)
     x, y, z, tilt_y, tilt_z = ring.tolist()
     return Equilibrium(
         (x, y, z),
@@ -108,34 +94,30 @@ def solve(
         found[:, 2],
         found[:, 3],
         found[:, 4:],
-        cage(found, fixed.idle),
+        cage(found, bearing.idle),
         left / largest,
         steps,
         (x, y, z, tilt_y, tilt_z, *inertia.ravel().tolist()),
     )
 
 
-class _Fixed(NamedTuple):
-    """Numbers of a geometry that the kernels need."""
-
-    centre: Array
-    springs: Array
-    holds: Array
-    masses: Array
-    idle: float
-    balls: Array  # where their seats are looked for first
-
-
 @lru_cache(maxsize=64)
-def _fixed(geometry: BallBearingGeometry) -> _Fixed:
+def _fixed(geometry: BallBearingGeometry) -> Bearing:
+    """Return what the kernels need to know, but for azimuths and centring."""
     inner, outer, ball = geometry.inner, geometry.outer, geometry.ball_diameter
-    reach_inner, reach_outer = inner.groove - 0.5 * ball, outer.groove - 0.5 * ball
-    direction = np.array([math.sin(geometry.contact_angle), math.cos(geometry.contact_angle)])
-    return _Fixed(
+    return Bearing(
+        azimuths=np.empty((0, 2)),
         centre=np.array(geometry.groove_centre),
-        springs=np.array([outer.stiffness, reach_outer, inner.stiffness, reach_inner]),
+        springs=np.array([outer.stiffness, outer.groove - 0.5 * ball, inner.stiffness, inner.groove - 0.5 * ball]),
+        centring=np.empty(0),
         holds=np.array([inner.spin_lever, outer.spin_lever]),
         masses=np.array([0.5 * geometry.mass * geometry.pitch_diameter, 0.2 * geometry.mass * ball]),
+        ratio=geometry.ratio,
         idle=0.5 * (1.0 - geometry.ratio * math.cos(geometry.free_angle)),
-        balls=np.tile(reach_outer * direction, (geometry.balls, 1)),
     )
+
+
+def _seats(geometry: BallBearingGeometry) -> Array:
+    """Return where the balls' centres are looked for first."""
+    direction = np.array([math.sin(geometry.contact_angle), math.cos(geometry.contact_angle)])
+    return np.tile((geometry.outer.groove - 0.5 * geometry.ball_diameter) * direction, (geometry.balls, 1))

@@ -6,16 +6,17 @@ them together once they are further apart than a free length, with the force K s
 springs and forces that do not depend on the position is convex in all positions together, so that there is one
 equilibrium, and Newton's method with a line search on the slope finds it from anywhere.
 
-springs: (stiffness, free length) of the outer, then of the inner contact. azimuths [Z, 2]: cos, sin of the balls'.
-centre: of the inner groove before the ring moves. ring [5]: its displacement along x, y, z and its tilt about y, z
-times the radius on which that centre lies; forces on the ring likewise, and centring, the stiffness of what else
-holds it. balls [Z, 2]: their centres; pressed [Z, 2]: what else acts on them.
+ring [5]: its displacement along x, y, z and its tilt about y, z times the radius on which the inner groove's centre
+lies; forces on the ring likewise. balls [Z, 2]: their centres; pressed [Z, 2]: what else acts on them.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 import contact_core.kernels  # noqa: F401  # decides where compiled kernels are kept
+from contact_core.kernels.arrays import Array
 
 _jit = njit(cache=True, nogil=True, error_model="numpy")
 
@@ -28,6 +29,19 @@ _UNTOUCHED = 1e-2  # N: less on all inner contacts together hardly drives the ca
 _SHARP = 4.0
 _ROUNDING = 1e-9  # of the springs' lengths: a smaller stretch is what the search for a ball's rest leaves of it
 _GRAZING = 0.1  # least cosine between a ball's axis and the plane of its contact, where no groove reaches any more
+
+
+class Bearing(NamedTuple):
+    """What of a bearing stays while ring and balls come to rest."""
+
+    azimuths: Array  # [Z, 2]: cos, sin of the balls'
+    centre: Array  # of the inner groove before the ring moves
+    springs: Array  # (stiffness, free length) of the outer, then of the inner contact
+    centring: Array  # [5]: stiffness of what else holds the ring
+    holds: Array  # lever of spin friction at 1 N [m] of the inner and the outer contact
+    masses: Array  # of a ball times pitch radius, and twice its moment of inertia over its diameter
+    ratio: float  # of ball to pitch diameter
+    idle: float  # speed of the cage, over that of the inner ring, where no ball is driven
 
 
 @_jit
@@ -144,17 +158,17 @@ def groove_centre(centre, ring, cos, sin):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def _at_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature):  # type: ignore[no-untyped-def]
+def _at_ring(ring, balls, pressed, bearing, forces, slope, curvature):  # type: ignore[no-untyped-def]
     """Return the derivatives of the energy by the ring's coordinates, with all balls at rest; moves `balls`."""
     for i in range(5):
-        slope[i] = centring[i] * ring[i] - forces[i]
+        slope[i] = bearing.centring[i] * ring[i] - forces[i]
         curvature[i, :] = 0.0
-        curvature[i, i] = centring[i]
-    axial, radial = np.zeros(5), np.zeros(5)
+        curvature[i, i] = bearing.centring[i]
+    springs, axial, radial = bearing.springs, np.zeros(5), np.zeros(5)
     axial[0] = 1.0
     for j in range(balls.shape[0]):
-        cos, sin = azimuths[j]
-        cx, cr = groove_centre(centre, ring, cos, sin)
+        cos, sin = bearing.azimuths[j]
+        cx, cr = groove_centre(bearing.centre, ring, cos, sin)
         x, r = _seat_ball(balls[j, 0], balls[j, 1], cx, cr, pressed[j, 0], pressed[j, 1], springs)
         balls[j, 0], balls[j, 1] = x, r
         _, fx, fr, ixx, ixr, irr = pull(cx - x, cr - r, springs[2], springs[3])
@@ -177,14 +191,14 @@ def _at_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, 
 
 
 @_jit
-def seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, least):  # type: ignore[no-untyped-def]
+def seat_ring(ring, balls, pressed, bearing, forces, least):  # type: ignore[no-untyped-def]
     """Move ring and balls to rest; returns the largest force left over, and the steps taken.
 
     A force below `least` is none.
     """
-    size = springs[1] + springs[3]
+    size = bearing.springs[1] + bearing.springs[3]
     slope, curvature, trial = np.zeros(5), np.zeros((5, 5)), np.zeros(5)
-    _at_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature)
+    _at_ring(ring, balls, pressed, bearing, forces, slope, curvature)
     norm, steps, stays = np.abs(slope).max(), 0, 0
     while norm > _STILL and steps < _STEPS:
         steps += 1
@@ -195,7 +209,7 @@ def seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring,
         low, below, high, above = 0.0, down, 1.0, 0.0
         for cut in range(_CUTS):
             trial[:] = ring + part * step
-            _at_ring(trial, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature)
+            _at_ring(trial, balls, pressed, bearing, forces, slope, curvature)
             along = _product(slope, step)
             if _is_far_enough(along, down, part):
                 break
@@ -244,24 +258,24 @@ def rolling(inner, outer, held_inner, held_outer, ratio):  # type: ignore[no-unt
 
 
 @_jit
-def motions(ring, balls, azimuths, centre, springs, holds, ratio, found):  # type: ignore[no-untyped-def]
+def motions(ring, balls, bearing, found):  # type: ignore[no-untyped-def]
     """Fill `found` [Z, 11]: inner and outer load, their angles, and the results of `rolling`.
 
-    holds: lever of spin friction at 1 N [m] of the inner and the outer contact. A ball without load on the inner race
-    has there the angle of the outer one; a loose ball, whose place is any, has the angle of the line through both
-    grooves' centres.
+    A ball without load on the inner race has there the angle of the outer one; a loose ball, whose place is any, has
+    the angle of the line through both grooves' centres.
     """
+    springs, holds = bearing.springs, bearing.holds
     least = (_ROUNDING * (springs[1] + springs[3])) ** 1.5
     for j in range(balls.shape[0]):
         x, r = balls[j]
-        cx, cr = groove_centre(centre, ring, azimuths[j, 0], azimuths[j, 1])
+        cx, cr = groove_centre(bearing.centre, ring, bearing.azimuths[j, 0], bearing.azimuths[j, 1])
         inner, outer = pull(cx - x, cr - r, springs[2], springs[3])[0], pull(x, r, springs[0], springs[1])[0]
         inner = inner if inner > springs[2] * least else 0.0
         outer = outer if outer > springs[0] * least else 0.0
         out = np.arctan2(x, r) if outer > 0.0 else np.arctan2(cx, cr)
         into = np.arctan2(cx - x, cr - r) if inner > 0.0 else out
         found[j, 0], found[j, 1], found[j, 2], found[j, 3] = inner, outer, into, out
-        rolls = rolling(into, out, holds[0] * inner ** (4.0 / 3.0), holds[1] * outer ** (4.0 / 3.0), ratio)
+        rolls = rolling(into, out, holds[0] * inner ** (4.0 / 3.0), holds[1] * outer ** (4.0 / 3.0), bearing.ratio)
         for i in range(7):
             found[j, 4 + i] = rolls[i]
 
@@ -280,17 +294,16 @@ def cage(found, idle):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def settle(  # type: ignore[no-untyped-def]
-    ring, balls, inertia, azimuths, centre, springs, forces, centring, holds, ratio, idle, masses, speed, found
-):
+def settle(ring, balls, inertia, bearing, forces, speed, found):  # type: ignore[no-untyped-def]
     """Bring ring and balls to rest under forces on the ring and the balls' inertia at an angular speed of the ring.
 
-    inertia [Z, 2]: forces of inertia on the balls over speed^2; a first guess, improved in place. masses: ball's mass
-    times pitch radius, and twice its moment of inertia over its diameter. Gyroscopic moments are those of outer race
-    control, held by friction on that race. Returns the largest force left over, the largest force, and Newton's steps.
+    inertia [Z, 2]: forces of inertia on the balls over speed^2; a first guess, improved in place. Gyroscopic moments
+    are those of outer race control, held by friction on that race. Returns the largest force left over, the largest
+    force, and Newton's steps.
 
     A guess, of ring and inertia, that is no number, or out of the bearing, or leads to no balance is left for none.
     """
+    springs, masses, ratio = bearing.springs, bearing.masses, bearing.ratio
     size, square, seats, wanted = springs[1] + springs[3], speed * speed, balls.copy(), np.empty_like(inertia)
     if not (np.abs(ring).sum() <= size and np.abs(inertia).sum() < np.inf):
         ring[:] = 0.0
@@ -301,10 +314,10 @@ def settle(  # type: ignore[no-untyped-def]
         for _ in range(_ROUNDS):
             pressed = square * inertia
             largest = max(np.abs(forces).max(), np.abs(pressed).max(), 1.0)
-            left, taken = seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, 1e-10 * largest)
+            left, taken = seat_ring(ring, balls, pressed, bearing, forces, 1e-10 * largest)
             steps += taken
-            motions(ring, balls, azimuths, centre, springs, holds, ratio, found)
-            orbit, change = cage(found, idle), 0.0
+            motions(ring, balls, bearing, found)
+            orbit, change = cage(found, bearing.idle), 0.0
             for j in range(balls.shape[0]):
                 # under outer race control the spin's radial part is orbit sin(outer) / ratio
                 outer, squared = found[j, 3], orbit * orbit

@@ -7,11 +7,12 @@ from functools import cached_property
 import numpy as np
 
 from contact_core.errors import ContactError
+from contact_core.kernels.arrays import Array
 
 from ...parts.part import indexed
 from . import rating, stress_life
 from .geometry import RACES, RaceName
-from .record import CAPPED, Array, BearingRun, ContactClass
+from .record import CAPPED, BearingRun, ContactClass
 
 _HOUR = 3600.0
 

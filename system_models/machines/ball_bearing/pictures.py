@@ -8,12 +8,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from contact_core.kernels.arrays import Array
+from contact_core.quantities import CELSIUS
+
 from ...charts.chart import BLACK, BLUE, GREEN, GREY, NOTHING, ORANGE, PURPLE, RED, SKY, Chart, Line, Sheet, shades
-from ...charts.units import CELSIUS, time_unit
+from ...charts.units import time_unit
 from ...run.panels import FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR
 from ..assembly import Assembly
 from .geometry import RACES, RaceName
-from .record import CAPPED, Array, BearingRun, ContactClass
+from .record import CAPPED, BearingRun, ContactClass
 
 _RPM, _DEGREES = 30.0 / math.pi, 180.0 / math.pi
 _NM, _NMM = 1e9, 1e3  # per m, per N m

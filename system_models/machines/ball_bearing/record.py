@@ -11,6 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from contact_core import OperatingPoint, advance, initial_state
+from contact_core.kernels.arrays import Array, Mask
 from contact_core.laws.viscosity import kinematic_viscosity
 
 from ...parts.part import indexed
@@ -21,7 +22,6 @@ from .geometry import RACES, RaceName
 from .part import BallBearing, contact_name
 from .textbook import CatalogueBearing, Torque, catalogue_of, palmgren_torque, skf_torque
 
-Array = NDArray[np.float64]
 Parts = dict[str, Array]  # friction torque [N m] by cause, arrays [time], NaN at standstill
 Formula = Callable[[CatalogueBearing, float, float, float, float], Torque]  # radial, axial, speed, viscosity
 
@@ -88,7 +88,7 @@ class BearingRun:
         least = _HARDLY * max(loads.values())
         return tuple(which for which in self.classes if loads[which] > least and balls[which] > FEWEST)
 
-    def loaded(self, which: ContactClass) -> NDArray[np.bool_]:
+    def loaded(self, which: ContactClass) -> Mask:
         """Return True in rows in which a load class has balls that carry more than hardly any load."""
         load, balls = self.given(which, "load"), self.given(which, "count")
         return (balls > FEWEST) & (load > _HARDLY * self.of("bearing.load_max"))
@@ -107,7 +107,7 @@ class BearingRun:
         return self.of("shaft.speed")
 
     @cached_property
-    def runs(self) -> NDArray[np.bool_]:
+    def runs(self) -> Mask:
         """True in rows in which the shaft turns."""
         return np.abs(self.speed) > self.bearing.standstill
 

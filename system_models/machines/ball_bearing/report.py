@@ -4,12 +4,14 @@ import math
 
 import xarray as xr
 
-from ...charts.units import CELSIUS
+from contact_core.kernels.arrays import Array
+from contact_core.quantities import CELSIUS
+
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
 from . import rating
 from .lives import RatedRun
-from .record import CAPPED, FEWEST, Array, BearingRun
+from .record import CAPPED, FEWEST, BearingRun
 
 _RPM = 30.0 / math.pi
 _NM, _NMM = 1e9, 1e3  # per m, per N m

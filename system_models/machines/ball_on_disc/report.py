@@ -7,11 +7,13 @@ from itertools import pairwise
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
+
+from contact_core.kernels.arrays import Mask
+from contact_core.quantities import CELSIUS
 
 from ...charts.chart import BLACK, BLUE, GREEN, GREY, RED, Chart, Line, Sheet, shades, spans_of
 from ...charts.half_widths import Column
-from ...charts.units import CELSIUS, Unit, time_unit
+from ...charts.units import Unit, time_unit
 from ...run.cosim_report import aligned
 from ...run.panels import FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR, chart
 from ...store.results import half_width
@@ -120,7 +122,7 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     return [*_table(dataset, found), "", *(_curves(dataset, found) if found else ()), *_energy(assembly, dataset)]
 
 
-def _rubbing(dataset: xr.Dataset, found: list[Sweep]) -> NDArray[np.bool_]:
+def _rubbing(dataset: xr.Dataset, found: list[Sweep]) -> Mask:
     """Return True for rows that are in no sweep."""
     times = dataset["time"].values
     within = [(sweep.holds[0].start < times) & (times <= sweep.holds[-1].end) for sweep in found]

@@ -3,8 +3,11 @@
 import numpy as np
 import xarray as xr
 
-from ...charts.chart import BLACK, Array, Chart, Line, Sheet
-from ...charts.units import CELSIUS, time_unit
+from contact_core.kernels.arrays import Array
+from contact_core.quantities import CELSIUS
+
+from ...charts.chart import BLACK, Chart, Line, Sheet
+from ...charts.units import time_unit
 from ...run.panels import FILM, FRICTION, LAMBDA, TRIBOFILM, WEAR
 from ..assembly import Assembly
 from .record import Record

@@ -4,7 +4,8 @@ import math
 
 import xarray as xr
 
-from ...charts.units import CELSIUS
+from contact_core.quantities import CELSIUS
+
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
 from .record import Record

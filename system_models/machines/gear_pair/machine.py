@@ -17,9 +17,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from contact_core.errors import SceneError
+from contact_core.errors import SceneError, did_you_mean
 from contact_core.quantities import TABLE, Quantity
-from contact_core.scene.toml import did_you_mean, unbuild
+from contact_core.scene.toml import unbuild
 
 from ...parts.brake import Brake
 from ...parts.part import Part, indexed, start_values

@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from contact_core.kernels.arrays import Array
 from contact_core.laws.base import Viscosity
 
 from .geometry import FZG_C, FZG_STAGES
-from .path import Array
 from .sharing import Sharing
 from .textbook import michaelis
 from .working import Working

@@ -6,12 +6,15 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
+from contact_core.kernels.arrays import Array
+from contact_core.quantities import CELSIUS
+
 from ...charts.chart import BLACK, BLUE, COLOURS, NOTHING, RED, Chart, Line, Sheet, shades
 from ...charts.scale import scale_of
-from ...charts.units import CELSIUS, time_unit
+from ...charts.units import time_unit
 from ...run.panels import FILM, FRICTION, LAMBDA, ROUGHNESS, TRIBOFILM, WEAR
 from ..assembly import Assembly
-from .path import Array, named_points
+from .path import named_points
 from .record import Record, Stage
 from .safety import Safeties
 

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from contact_core.kernels.arrays import Array, Mask
 from contact_core.laws.viscosity import kinematic_viscosity
 from contact_core.reference import hertz_line
 from contact_core.scene import Scene
@@ -18,7 +19,7 @@ from contact_core.scene import Scene
 from ..assembly import Assembly
 from .geometry import FZG_A, FZG_C, SpurGearPair, load_stages
 from .mesh import GearMesh, flank
-from .path import Array, steps
+from .path import steps
 from .textbook import iso_14179_1, load_intensity, ohlendorf, schlenk
 
 RA_OF_RQ = math.sqrt(2.0 / math.pi)  # of Gaussian heights
@@ -119,7 +120,7 @@ class Record:
         return float(hertz_line(force, radius, pair.face_width, pair.reduced_modulus).pressure_max)
 
     @cached_property
-    def works(self) -> NDArray[np.bool_]:
+    def works(self) -> Mask:
         """The rows in which the gears turn under load."""
         return (self.of("shafts.speed_1") > _TURNS) & (self.of("shafts.mesh_torque") > _LOADED)
 

@@ -5,10 +5,12 @@ from dataclasses import asdict
 import numpy as np
 import xarray as xr
 
+from contact_core.kernels.arrays import Array
+from contact_core.quantities import CELSIUS
+
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
 from ..report import heat_stored
-from .path import Array
 from .rating import Rating
 from .record import Record, Stage
 from .safety import Safeties
@@ -63,7 +65,7 @@ def _row(record: Record, stage: Stage) -> list[str]:
     """Return the values at the end of a stage; flash is the largest in it."""
     row = stage.last
     ratio, formula = record.along("lambda_ratio")[row], record.textbook(row)
-    warm = [record.of(f"gearbox.temperature_{node}")[row] - 273.15 for node in ("oil", "pinion", "wheel")]
+    warm = [record.of(f"gearbox.temperature_{node}")[row] - CELSIUS for node in ("oil", "pinion", "wheel")]
     worn = [1e9 * record.along(f"wear_depth_{body}")[row].max() for body in (1, 2)]
     iso = f"{formula.iso_14179_1:.4f}"
     return [
@@ -107,8 +109,8 @@ def _safety(record: Record) -> list[str]:
         f"Micropitting by ISO/TS 6336-22: least h_Y / Ra over 1.4 W_W {found.failing:.3f}, with which the oil fails "
         f"load stage {rating.micropitting_stage} of FVA 54/7. By the run: least h_c / Ra of the flanks as they are "
         f"over 1.4 W_W {found.own_failing:.3f}, that of such contacts in the same test with new flanks.",
-        f"Scuffing at {some.flash.limit - 273.15:.0f} degC of flash temperature (ISO/TS 6336-20)"
-        + (f", {some.integral.limit - 273.15:.0f} degC of integral temperature (-21)" if some.integral else "")
+        f"Scuffing at {some.flash.limit - CELSIUS:.0f} degC of flash temperature (ISO/TS 6336-20)"
+        + (f", {some.integral.limit - CELSIUS:.0f} degC of integral temperature (-21)" if some.integral else "")
         + f", as the oil fails load stage {rating.scuffing_stage} of A/8.3/90. By the run: bulk and flash of the "
         "hottest contact, against the former. Loads of the standards: as the machine shares them, K factors 1.",
         *_assumed(record),
@@ -126,12 +128,12 @@ def _safety_row(record: Record, found: Safeties, stage: Stage) -> list[str]:
         _factor(pits.safety),
         f"{pits.own:.2f}",
         _factor(pits.own_safety),
-        f"{found.films(stage.last).bulk - 273.15:.0f}",
-        f"{seizes.flash.temperature.max() - 273.15:.0f}",
+        f"{found.films(stage.last).bulk - CELSIUS:.0f}",
+        f"{seizes.flash.temperature.max() - CELSIUS:.0f}",
         _factor(seizes.flash.safety),
-        f"{integral.temperature - 273.15:.0f}" if integral else "-",
+        f"{integral.temperature - CELSIUS:.0f}" if integral else "-",
         _factor(integral.safety) if integral else "-",
-        f"{seizes.own - 273.15:.0f}",
+        f"{seizes.own - CELSIUS:.0f}",
         _factor(seizes.own_safety),
     ]
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from contact_core import advance, initial_state
+from contact_core.kernels.arrays import Array
 from contact_core.scene import Scene
 
 from ..resolve import started
@@ -14,7 +15,7 @@ from .flanks import contact_at
 from .geometry import FZG_C, load_stages
 from .mesh import GearMesh
 from .micropitting import TEST_LEVER, Films, films, gf_class, limit, reference_test, safety
-from .path import Array, surface_speeds
+from .path import surface_speeds
 from .rating import Rating
 from .record import RA_OF_RQ, Record
 from .scuffing import Flash, Integral, by_flash, by_integral, margin

@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from contact_core.kernels.arrays import Array
 from contact_core.laws.viscosity import kinematic_viscosity
+from contact_core.quantities import CELSIUS
 
-from ...charts.units import CELSIUS
 from .geometry import SpurGearPair
-from .path import Array
 from .sharing import mean_stiffness
 from .textbook import michaelis
 from .working import Working

@@ -7,12 +7,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from contact_core.kernels.arrays import Array, Mask
 
 from .geometry import SpurGearPair, fixed
 from .path import Numbers
-
-Array = NDArray[np.float64]
 
 _STEEL = 206e9  # Pa, of the teeth that ISO 6336 is fitted to
 _DEDENDUM = 1.25  # of the basic rack, in modules
@@ -124,7 +123,7 @@ def _relief(pair: SpurGearPair, sharing: Sharing, position: Array) -> Array:
     return taken
 
 
-def _common_deflection(stiffness: Array, gap: Array, touching: NDArray[np.bool_], force: float) -> Array:
+def _common_deflection(stiffness: Array, gap: Array, touching: Mask, force: float) -> Array:
     """Return the deflection [m] at which springs [..., n] of a stiffness, each behind its gap, carry a force together.
 
     With the springs in the order of their gaps, the first m carry it if that does not close the gap of the next.

@@ -5,8 +5,10 @@ The loss of a mesh is P_V = P_a H_V mu_mz: transmitted power, loss factor of the
 
 import math
 
+from contact_core.kernels.arrays import Array
+
 from .geometry import SpurGearPair
-from .path import Array, Numbers, Stations, radius
+from .path import Numbers, Stations, radius
 
 
 def ohlendorf(pair: SpurGearPair) -> float:

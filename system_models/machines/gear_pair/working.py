@@ -6,11 +6,12 @@ from itertools import pairwise
 
 import numpy as np
 
+from contact_core.kernels.arrays import Array
 from contact_core.laws.base import Viscosity
 from contact_core.reference import hertz_line
 
 from .geometry import SpurGearPair
-from .path import Array, radius, steps, surface_speeds
+from .path import radius, steps, surface_speeds
 from .rating import Rating
 from .sharing import Sharing, loads
 from .textbook import ohlendorf
