@@ -11,7 +11,6 @@
     document    documentation/index.html
     evidence    reference data: a short run to replay
     licences    required packages, their licences and environment variables
-    icon        model.png
 
 Nothing here is loaded when an FMU runs.
 """

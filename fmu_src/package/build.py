@@ -16,7 +16,7 @@ from contact_core.scene import Scene
 from ..flavours import VERSIONS, Flavour, Version
 from ..runtime import resources
 from ..variables import Variable, variables
-from . import compiled, evidence, fmi2, fmi3, icon, licences, terminals
+from . import compiled, evidence, fmi2, fmi3, licences, terminals
 from .describe import Model, described, variables_of
 from .document.page import documentation
 
@@ -84,10 +84,11 @@ def check(flavour: Flavour, fmi: Version) -> None:
 
 def _picture(scene: Scene, fmi: Version) -> dict[str, bytes]:
     """Return name and content of the files that show the FMU in diagrams."""
+    icon = Path(__file__).with_name("icon.png").read_bytes()
     if fmi == 2:
-        return {"model.png": icon.png()}
+        return {"model.png": icon}
     return {
-        f"{terminals.FOLDER}/icon.png": icon.png(),
+        f"{terminals.FOLDER}/icon.png": icon,
         f"{terminals.FOLDER}/terminalsAndIcons.xml": terminals.terminals(variables(scene)),
     }
 
