@@ -25,17 +25,3 @@ def squeeze_line(speed: float, gap: float, radius: float, viscosity: float) -> f
     It is 3 sqrt(2) pi eta V (R / h_0)^1.5.
     """
     return 3.0 * math.sqrt(2.0) * math.pi * viscosity * speed * (radius / gap) ** 1.5
-
-
-def squeezed_point(time: float, gap: float, load: float, radius_x: float, radius_y: float, viscosity: float) -> float:
-    """Return the smallest gap [m] after a time [s] under a constant load [N], from `gap` [m] on: an exponential."""
-    return gap * math.exp(-load * time / (gap * squeeze_point(1.0, gap, radius_x, radius_y, viscosity)))
-
-
-def squeezed_line(time: float, gap: float, load: float, radius: float, viscosity: float) -> float:
-    """Return the smallest gap [m] under a cylinder after a time [s], from `gap` [m] on.
-
-    The load per length [N/m] is constant.
-    """
-    speed = load / squeeze_line(1.0, gap, radius, viscosity)
-    return gap / (1.0 + 0.5 * speed * time / gap) ** 2

@@ -29,11 +29,6 @@ class Race:
         """Sum of the four curvatures [1/m]."""
         return 1.0 / self.radius_x + 1.0 / self.radius_y
 
-    @property
-    def curvature_difference(self) -> float:
-        """F(rho): difference of the curvatures along and across over their sum."""
-        return (1.0 / self.radius_x - 1.0 / self.radius_y) / self.curvature_sum
-
     @cached_property
     def unit(self) -> Hertz:
         """The contact at 1 N."""
@@ -107,11 +102,6 @@ class BallBearingGeometry:
         """Contact angle [rad] under an axial force that tends to zero."""
         play = max(self.clearance, 0.0) / (2.0 * self.separation)
         return self.contact_angle or math.acos(1.0 - play)
-
-    @property
-    def endplay(self) -> float:
-        """Way of the inner ring from one axial stop to the other [m]."""
-        return 2.0 * self.separation * math.sin(self.free_angle)
 
     @property
     def groove_centre(self) -> tuple[float, float]:
