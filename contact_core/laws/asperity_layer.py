@@ -58,7 +58,6 @@ class AsperityLayer:
 
     @property
     def error(self) -> str:
-        """Sentence on constants that contradict each other, or an empty text."""
         if self.slope <= STEEPEST:
             return ""
         return (

@@ -65,15 +65,12 @@ class _Limited(ABC):
         return np.copysign(stress, newtonian)
 
     def limiting_left(self, temperature: Numbers) -> Numbers:
-        """Return the limiting stress at temperatures [K] over that at 40 degC."""
         return 1.0 if self.limiting_fall == 0.0 else exp(self.limiting_fall * (_LIMIT_AT - temperature))
 
     def film_factor(self, newtonian_film: float, speed: float, viscosity: float, slide_roll_ratio: float) -> float:
-        """Return the central film thickness over that of a Newtonian oil [m]: 1, no formula is known."""
         return 1.0
 
     def slopes(self, newtonian: Array, pressure: Array) -> tuple[Array, Array]:
-        """Return the derivatives of the stress by `newtonian` and by pressure (at fixed `newtonian`)."""
         size = np.abs(newtonian)
         slope = self._slope(size)
         if self.limiting_coefficient == 0.0:
@@ -115,7 +112,6 @@ class Newtonian(_Limited):
         return np.ones_like(newtonian)
 
     def ease(self, stress: Array) -> Array:
-        """Return the shear rate at a stress [Pa] over that of a Newtonian oil: 1."""
         return np.ones_like(stress)
 
 
@@ -154,7 +150,6 @@ class Eyring(_Limited):
         return 1.0 / np.hypot(1.0, newtonian / self.eyring_stress)
 
     def ease(self, stress: Array) -> Array:
-        """Return the shear rate at a stress [Pa] over that of a Newtonian oil."""
         x = np.minimum(np.abs(stress) / self.eyring_stress, _EASIEST)
         return np.where(x > 1e-4, np.sinh(x) / np.maximum(x, 1e-300), 1.0 + x * x / 6.0)
 

@@ -62,11 +62,9 @@ class _BySliding(ABC):
 
     @property
     def of_sliding(self) -> bool:
-        """True if the bodies' relative sliding wears them, and spin with it; else each one's own speed does."""
         return self.sliding == "difference"
 
     def slide(self, speeds: Speeds, body: int) -> Any:
-        """Return the speed [m/s] that wears body 1 (`body` = 0) or 2 (1) at the surface speeds (u1, u2) [m/s]."""
         return abs(speeds[body]) if self.sliding == "surface_speed" else abs(speeds[0] - speeds[1])
 
     @abstractmethod
@@ -124,7 +122,6 @@ class Archard(_BySliding):
     sliding: str = _sliding()
 
     def coefficient(self, cover: Array, full_thickness: float) -> Array:
-        """Return the dimensionless wear coefficient K under a tribofilm of `cover` (0 to 1) of its full thickness."""
         return self.bare + (self.film - self.bare) * cover
 
     def film_removal(
@@ -182,7 +179,6 @@ class FilmFirst(_BySliding):
     sliding: str = _sliding()
 
     def coefficient(self, cover: Array, full_thickness: float) -> Array:
-        """Return the coefficient of the solid under a tribofilm of `cover` (0 to 1) of `full_thickness` [m]."""
         return self.bare * exp(-cover * full_thickness / self.thin)
 
     def film_removal(

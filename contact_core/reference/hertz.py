@@ -152,11 +152,9 @@ class HertzLine(Hertz):
 
     @cached_property
     def area(self) -> float:
-        """Contact area [m2]."""
         return 4.0 * self.a * self.b
 
     def inside(self, x: Array, y: Array, share: float) -> NDArray[np.bool_]:
-        """Return the nodes within `share` of the half widths, [ny, nx], at x [nx], y [ny] about the centre [m]."""
         within: NDArray[np.bool_] = (np.abs(x) < share * self.a)[None, :] & (np.abs(y) < share * self.b)[:, None]
         return within
 
@@ -167,7 +165,6 @@ class HertzLine(Hertz):
         return np.tile(2.0 * self.pressure_max * self.a / reduced_modulus * row, (y.size, 1))
 
     def chords(self, y: Array) -> Array:
-        """Return the length along x of the contact's rows at y [m] over 2 a."""
         return np.where(np.abs(y) < self.b, 1.0, 0.0)
 
     @cached_property
@@ -187,7 +184,6 @@ class HertzLine(Hertz):
         return bodies.strip_conductances(0.25 * areas / self.b, self.b, speeds, hottest=hottest)
 
     def growth(self, times: float) -> tuple[float, float]:
-        """Return the factors on a and the pressure, and on b, under `times` the load."""
         return math.sqrt(times), 1.0
 
     def approach_beyond(self, distance: float) -> float:

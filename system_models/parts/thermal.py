@@ -78,7 +78,6 @@ class ThermalNetwork(Part):
     thermostats: tuple[Thermostat, ...] = ()
 
     def check(self) -> None:
-        """Raise SceneError for names that are missing, unknown or useless."""
         for sentence in self._complaints():
             raise SceneError(sentence)
 
@@ -106,7 +105,6 @@ class ThermalNetwork(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """Heat flows, temperature of the surroundings, and setpoints of the thermostats."""
         heats = [(name, node.name) for node in self.nodes for name in node.heats]
         return (
             *(Input(name, "Q", "W", f"heat that comes into '{node}'", nominal=100.0) for name, node in heats),
@@ -119,7 +117,6 @@ class ThermalNetwork(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Temperatures, and where the heat goes."""
         names, ambient = [node.name for node in self.nodes], ("temperature_ambient",)
         return (
             *(
@@ -211,7 +208,6 @@ class ThermalNetwork(Part):
                 yield link.second if link.first == AMBIENT else link.first, link.conductance
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return temperatures, heat flows and energies."""
         temperatures = dict(zip((node.name for node in self.nodes), state, strict=False))
         lost, *given = state[len(self.nodes) :]
         ambient = inputs["temperature_ambient"]

@@ -96,7 +96,6 @@ class _Activated:
 
     @property
     def most_exposure(self) -> float:
-        """Largest exposure [1/s] per test time that the supply of additive allows."""
         return self.supply_rate / self.full_thickness
 
     def rate(self, stress: Array, temperature: Temperature) -> Array:
@@ -313,12 +312,10 @@ class Combined(_Activated):
         return self.contact_weight * in_contacts + self.stress_weight * by_shear
 
     def covers(self, temperature: float) -> bool:
-        """Return True if the constants of those parts that have a weight hold at a bulk `temperature` [K]."""
         in_contacts = self.contact_weight == 0.0 or self.in_contacts.covers(temperature)
         return in_contacts and (self.stress_weight == 0.0 or super().covers(temperature))
 
     def refusal(self, temperature: float) -> str:
-        """Return why the law does not hold at a bulk `temperature` [K], or an empty text."""
         said = self.in_contacts.refusal(temperature) if self.contact_weight > 0.0 else ""
         if said or self.beyond_fit == "extrapolate" or self.covers(temperature):
             return said

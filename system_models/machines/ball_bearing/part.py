@@ -98,12 +98,10 @@ class BallBearing(Part):
     )
 
     def check(self) -> None:
-        """Raise SceneError if the dimensions do not go together."""
         self.dimensions.check()
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """Loads and speed of the shaft, then each quantity of the contacts of all classes."""
         return (
             *_SHAFT,
             *(
@@ -116,7 +114,6 @@ class BallBearing(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Outputs for each load class, of the bearing as a whole, and of its balls."""
 
         def row(name: str, symbol: str, unit: str, nominal: float, text: str, *, by: tuple[str, ...] = _BY_LOAD,
                 display: str = "") -> Output:  # fmt: skip
@@ -211,7 +208,6 @@ class BallBearing(Part):
         return classify(self.dimensions, self.dimensions.race(race), loads, moving, self.levels)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return the value of each of `responses`, for the inputs as they are."""
         rest, speed = self._solved(state, inputs), inputs["speed"]
         classes = dict(self._classes(rest))
         torque = self._torque(classes, inputs, speed)

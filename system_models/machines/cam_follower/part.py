@@ -72,7 +72,6 @@ class CamFollower(Part):
     mass: float = parameter("kg", "m, mass that moves with the follower", least=0.0, most=100.0)
 
     def check(self) -> None:
-        """Raise SceneError if the profile makes no cam for a flat follower."""
         wrong = [*self.lobe.wrong()]
         if wrong:
             raise SceneError(" ".join(wrong))
@@ -95,7 +94,6 @@ class CamFollower(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """Speed of the cam, then each quantity of the contacts at all stations."""
         return (
             Input("speed", "w", "rad/s", "angular speed of the cam", nominal=100.0, display="rpm"),
             *(Input(**_alike(name, k, nominal)) for name, nominal in RECEIVED.items() for k in self._numbers),
@@ -103,7 +101,6 @@ class CamFollower(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Load, speeds and radius of each station, then means over a turn."""
         friction, loss, rolling, heat_1, heat_2 = map(self._all, RECEIVED)
         speed = ("speed",)
 
@@ -125,15 +122,12 @@ class CamFollower(Part):
         )
 
     def initial(self, inputs: Values) -> State:
-        """Return no state."""
         return ()
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Return no state."""
         return ()
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return the value of each of `responses`, for the inputs as they are."""
         place, speed = self._places, inputs["speed"]
         found = {name: np.array([inputs[key] for key in self._all(name)]) for name in RECEIVED}
         load = self.preload + self.stiffness * place["lift"] + self.mass * speed**2 * place["lift_second"]

@@ -71,7 +71,6 @@ class GearMesh(Part):
     stations: int = fixed("", "contacts along the path", least=3, most=9999, default=21)
 
     def check(self) -> None:
-        """Raise SceneError if gears, sharing and stations do not go together."""
         wrong = [*self.pair.wrong()] or [*self.load_sharing.wrong(self.pair)]
         if wrong:
             raise SceneError(" ".join(wrong))
@@ -98,7 +97,6 @@ class GearMesh(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """Torque, speeds and temperatures of the gears, then each quantity of the contacts at all stations."""
         hot: dict[str, Any] = {"nominal": 350.0, "display": "degC", "start": 363.15}
         return (
             Input("torque", "T_1", "N m", "torque of the pinion that the teeth transmit", nominal=100.0),
@@ -113,7 +111,6 @@ class GearMesh(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Load, speeds and temperature of each station, then means over a mesh cycle of all pairs in contact."""
         friction, loss, rolling, flash, heat_1, heat_2 = map(self._all, RECEIVED)
         torque, speeds, bulk = ("torque",), ("speed_1", "speed_2"), ("body_temperature_1", "body_temperature_2")
         power = (*torque, "speed_1")
@@ -170,15 +167,12 @@ class GearMesh(Part):
         }
 
     def initial(self, inputs: Values) -> State:
-        """Return no state."""
         return ()
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Return no state."""
         return ()
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return the value of each of `responses`, for the inputs as they are."""
         found = {name: np.array([inputs[key] for key in self._all(name)]) for name in RECEIVED}
         place, flash = self._places.position, found["flash_temperature_rise"]
         force, power = abs(inputs["torque"]) / self.pair.base_radius_1, inputs["torque"] * inputs["speed_1"]
