@@ -1,8 +1,6 @@
 """What the assumptions of a scene are worth: half widths of its answers by the intervals of what it assumes.
 
-Each interval's ends go through the regression level, on new surfaces at an operating point, one by one; the larger
-change of an answer is the half width by that assumption, and they add as if they were independent. They are not in the
-errors of `uncertainty`, which are those of solving the scene as it is.
+Each end goes through the regression level, on new surfaces; half widths add as if independent. `uncertainty` has none.
 """
 
 import math

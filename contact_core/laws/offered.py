@@ -1,10 +1,6 @@
-"""Laws that other installed packages offer.
+"""Laws that other installed packages offer, by entry points of the group `tribofmu.laws.` and the slot.
 
-A package offers a law by an entry point: its group is `tribofmu.laws.` and the slot, its name that of the law, its
-value the class, such as
-
-    [project.entry-points."tribofmu.laws.viscosity"]
-    mcewen = "my_oil:McEwen"
+Name: that of the law; value: its class, such as mcewen = "my_oil:McEwen" in the group tribofmu.laws.viscosity.
 """
 
 from dataclasses import fields, is_dataclass

@@ -1,7 +1,6 @@
 """Symbols of the equations: those that all laws share, and what each symbol of an equation stands for.
 
-A law names its own symbols in `Equations.symbols`, with a field of the law or with a text and a unit. What stands alone
-left of a sign, as `k` in "k = x k_B T/h_P", is defined by the equation itself.
+A law has its own in `Equations.symbols`. What stands alone left of a sign is defined by the equation itself.
 """
 
 import re

@@ -1,7 +1,6 @@
 """The process behind the isolated flavour on Linux: it imports the model once and forks a worker for every instance.
 
-native/channel_linux.c is the other side: it sends orders over a socket and receives the answers there. The messages of
-each worker lie in a file in memory. Workers end with their supervisor, and the supervisor with its host.
+Orders come over a socket from native/channel_linux.c; the messages of each worker lie in a file in memory.
 """
 
 import ctypes

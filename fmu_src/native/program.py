@@ -1,7 +1,6 @@
-"""contact.c and contact.h: the regression level of one scene in C99, written from its Python.
+"""contact.c and contact.h: the regression level of one scene in C99, written from its Python by `translate`.
 
-`step`, `derivatives` and `first_state` are the program: Python that runs as it stands, and that `translate` writes as C
-for one scene. All equations are those of `contact_core`.
+`step`, `derivatives` and `first_state` are the program, Python that runs as it stands. Equations: `contact_core`.
 """
 
 import copy

@@ -1,7 +1,6 @@
 """Build an FMU: model description, documentation, resources and binaries in one zip.
 
-pythonfmu's own builder is not used: it writes time and a random guid into every FMU, runs the model to describe it, and
-packs a copy of itself that would hide the installed one.
+pythonfmu's builder writes time and a random guid, runs the model to describe it, and packs a copy of itself.
 """
 
 import io

@@ -1,7 +1,6 @@
 """Reference data in the FMU: a short run of its contact, so that an importer can check itself.
 
-In the layout of the FMI layered standard for references (fmi-ls-ref, 1.0.0-alpha.1): a manifest names an experiment,
-the experiment a table of stimuli and one of expected outputs.
+Layout: the FMI layered standard for references (fmi-ls-ref, 1.0.0-alpha.1), a manifest, stimuli, expected outputs.
 """
 
 from collections.abc import Iterable, Iterator

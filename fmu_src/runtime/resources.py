@@ -1,10 +1,8 @@
 """Resources of an FMU for its slave, written and read in one place.
 
-`scene.json` is the scene, `heights_*.npy` are its heights from files, `map_*.json` is its map from a file,
-`versions.json` the packages it was built with; `slavemodule.txt` names the script that defines the slave. The name of
-the script contains a fingerprint of scene and versions: two FMUs in one process never share a module, and an edited
-scene is detected. An isolated FMU has in addition `start.py`, which its library runs, `guid.txt`, and `python.txt` if
-an interpreter was recorded (package.build).
+`scene.json`, `heights_*.npy` and `map_*.json` of the scene, `versions.json` of packages, `slavemodule.txt` with the
+name of the slave's script, in which a fingerprint of scene and versions keeps FMUs in one process apart; an isolated
+FMU has `start.py`, `guid.txt` and `python.txt`, too.
 """
 
 import functools

@@ -1,9 +1,7 @@
 """Columns of the text logs of test rigs: which is which quantity, in which unit.
 
-No specification of these exports is public. The names are those of exports of PCS Instruments' MTM, ETM and EHD rigs
-that users have published, such as the test data of the Python package `tribology` (M. Ploss, 2019, MIT licence):
-"Rolling Speed (mm/s)", "Average Film (nm)", "Traction Coeff (-)", "Lube Temp (°C)", "Pot RTD Temp (degC)". Users add
-others.
+The names are those of exports of PCS Instruments' MTM, ETM and EHD rigs that users have published, such as the test
+data of the Python package `tribology` (M. Ploss, 2019, MIT licence); no specification is public.
 """
 
 import itertools

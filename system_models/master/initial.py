@@ -1,7 +1,6 @@
 """Consistent initial values: each connected input has the value of its source, while the FMUs are being initialised.
 
-The connections are worked through in the order of the initial dependencies. Around a loop there is no such order: it is
-cut at as few connections as a simple rule finds, and the inputs there are solved for.
+Connections are worked through in the order of the initial dependencies; a loop is cut at few and solved for these.
 """
 
 import logging

@@ -1,8 +1,7 @@
 """An ensemble of a scene as one result: its plan, means along time with their bands, and a table of the ends.
 
-The result looks like that of one contact, so that reports and comparisons show it: each output is the mean of the
-members, `_error` the mean of their stated half widths, which are common to them and not averaged out, and `_band` the
-half width (95 %, Student's t) of the mean by the scatter of the members.
+Each output is the mean of the members, `_error` the mean of their stated half widths, which are common to them, and
+`_band` the half width (95 %, Student's t) of the mean by the scatter of the members.
 """
 
 import json

@@ -1,7 +1,6 @@
 """Arrays of numbers at run time: what they are in C, and their elements, views and loops.
 
-`Stored` lies in a C array, row after row. `View` picks elements of one, `Derived` computes each where it is asked for.
-Names, parameters and results are stored ones.
+`Stored` lies in a C array, row after row; `View` picks elements of one; `Derived` computes each where it is asked for.
 """
 
 import math

@@ -1,7 +1,6 @@
 """Two powers in one call, where neither waits for the other: that takes little longer than one of them.
 
-Only the order changes in which a function computes what it names, not what it computes. A power moves to the other one
-if all that it needs is known there.
+Only the order changes in which a function computes: a power moves to another if all that it needs is known there.
 """
 
 import re
