@@ -28,38 +28,3 @@ from .rolling import rolling_beyond_line, rolling_beyond_point, rolling_line, ro
 from .sliders import ParabolicSlider
 from .squeeze import squeeze_line, squeeze_point
 from .starvation import film_behind_meniscus, supplied_film
-
-__all__ = [
-    "FILM_OF_VISCOSITY",
-    "Hertz",
-    "HertzLine",
-    "ParabolicSlider",
-    "SmoothContact",
-    "SmoothLine",
-    "bair_thinning_factor",
-    "dowson_line",
-    "film_behind_meniscus",
-    "ghanbarzadeh_thickness",
-    "hamrock_dowson",
-    "hertz_line",
-    "hertz_point",
-    "inlet_shear_factor",
-    "jaeger_circle",
-    "line_film",
-    "logarithmic_drop",
-    "moes_film",
-    "moes_line",
-    "moes_line_film",
-    "nijenbanning_venner_moes",
-    "nvm_film",
-    "rolling_beyond_line",
-    "rolling_beyond_point",
-    "rolling_line",
-    "rolling_point",
-    "rounded_drop",
-    "slipping_share",
-    "squeeze_line",
-    "squeeze_point",
-    "supplied_film",
-    "tian_kennedy_circle",
-]

@@ -20,5 +20,3 @@ Imports run from the bottom of this list to its top.
 from .evolution import advance
 from .outputs import errors_of
 from .warming import warm_up
-
-__all__ = ["advance", "errors_of", "warm_up"]

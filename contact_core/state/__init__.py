@@ -28,22 +28,3 @@ from .outputs import (
 )
 from .solved import Solved
 from .state import Body, ContactState, Mean, changed, initial_state
-
-__all__ = [
-    "Below",
-    "Body",
-    "Classes",
-    "ContactState",
-    "Error",
-    "Mean",
-    "Outputs",
-    "RangeFlag",
-    "Solved",
-    "changed",
-    "flag_of_errors",
-    "flag_of_pits",
-    "flag_of_scuffing",
-    "flag_of_wear",
-    "flags_of_tribofilm",
-    "initial_state",
-]

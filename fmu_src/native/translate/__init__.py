@@ -30,20 +30,3 @@ from .code import c_type, declared, wrapped
 from .functions import Entry, Translator
 from .grids import Stored
 from .values import Num, Untranslatable, array_kind, is_number, leaves, literal, parts, replaced
-
-__all__ = [
-    "Entry",
-    "Num",
-    "Stored",
-    "Translator",
-    "Untranslatable",
-    "array_kind",
-    "c_type",
-    "declared",
-    "is_number",
-    "leaves",
-    "literal",
-    "parts",
-    "replaced",
-    "wrapped",
-]
