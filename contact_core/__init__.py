@@ -24,12 +24,13 @@ and a correction may move the estimate. Where to find what:
     entry_points     what other installed packages offer
     progress         what a long step is doing, for those who wait
     errors           what can go wrong, each message with a way out
+    arrays           types of arrays
     data/            named oils, solids and tribofilms, and the shipped scenes
 
-Imports run one way: errors, progress, quantities, reference <- entry_points, kernels <- laws <- shapes <- film <-
-scene <- state, calls <- surfaces <- deterministic, regression <- corrections <- advance, assumed. The two levels do not
-import each other. Everything inside is SI; heights are metres above a body's mean
-plane, positive toward the other body; arrays are [ny, nx], x along entrainment.
+Imports run one way: arrays <- errors, progress, quantities, reference <- entry_points, kernels <- laws <- shapes <-
+film <- scene <- state, calls <- surfaces <- deterministic, regression <- corrections <- advance, assumed. The two
+levels do not import each other. Everything inside is SI; heights are metres above a body's mean plane, positive toward
+the other body; arrays are [ny, nx], x along entrainment.
 """
 
 from .advance import advance, uncertainty, warm_up

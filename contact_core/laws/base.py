@@ -7,15 +7,12 @@ from collections.abc import Hashable
 from dataclasses import Field
 from typing import Any, ClassVar, NamedTuple, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import Array
 from ..kernels.load_cycle import Cycle
 from .elementary import Numbers
 from .equations import Equations
 from .temperatures import Rubbing, Temperatures
 
-Array = NDArray[np.float64]
 Pair = tuple[float, float]  # of body 1 and 2
 Inputs = tuple[float | None, float | None]  # of body 1 and 2; None: not given
 

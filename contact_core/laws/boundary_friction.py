@@ -3,15 +3,11 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import Array
 from ..quantities import parameter
 from .base import BoundaryFriction
 from .elementary import tanh
 from .equations import Equations
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

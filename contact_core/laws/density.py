@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from .base import Density
 from .equations import Equations
 
@@ -20,7 +20,7 @@ class DowsonHigginson:
         ("ρ/ρ_0 = (5.9 · 10^8 + 1.34 p)/(5.9 · 10^8 + p),   p in Pa",),
     )
 
-    def __call__(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
+    def __call__(self, pressure: Array) -> Array:
         return (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
 
 
@@ -38,7 +38,7 @@ class Incompressible:
         ),
     )
 
-    def __call__(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
+    def __call__(self, pressure: Array) -> Array:
         """Return ones in the shape of `pressure`."""
         return np.ones_like(pressure)
 

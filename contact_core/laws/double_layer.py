@@ -5,14 +5,12 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..quantities import parameter
 from ..reference.constants import BOLTZMANN, ELEMENTARY_CHARGE, VACUUM_PERMITTIVITY
 from .base import DoubleLayer
 from .equations import Equations
-
-Array = NDArray[np.float64]
 
 _THIN = 0.03  # half the gap over Debye's length, below which series replace differences of nearly equal numbers
 

@@ -8,14 +8,12 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..kernels.load_cycle import Cycle
 from ..quantities import parameter
 from .base import Fatigue
 from .equations import Equations
-
-Array = NDArray[np.float64]
 
 _MISES = 3.0**0.5  # von Mises stress over sqrt(J2)
 

@@ -11,6 +11,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..kernels.moving_source import MovingSurface, partition
 from ..quantities import parameter
 from .base import Bulk, Heat
@@ -19,7 +20,6 @@ from .elementary import Numbers, sqrt
 from .equations import Equations
 from .temperatures import Rubbing, Temperatures
 
-Array = NDArray[np.float64]
 Nodes = NDArray[np.bool_]
 Pair = tuple[float, float]
 

@@ -4,13 +4,11 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..quantities import parameter
 from .base import Hardening, Plasticity
 from .equations import Equations
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -4,14 +4,12 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..quantities import parameter
 from ..reference import logarithmic_drop, rounded_drop
 from .base import Profile
 from .equations import Equations
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

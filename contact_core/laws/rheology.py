@@ -10,15 +10,13 @@ from typing import Any, ClassVar
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..quantities import parameter
 from ..reference import bair_thinning_factor
 from .base import Rheology
 from .elementary import Numbers, exp
 from .equations import Equations
-
-Array = NDArray[np.float64]
 
 _LIMIT_AT = 313.15  # K, temperature to which a limiting coefficient belongs
 _LIMIT = "τ_L = Λ p_f exp[β_L (T_L − T)]"

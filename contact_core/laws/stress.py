@@ -7,15 +7,13 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..kernels.damage import faces_of
 from ..kernels.load_cycle import Cycle
 from ..quantities import parameter
 from .base import Stress
 from .equations import Equations
-
-Array = NDArray[np.float64]
 
 OF_STRESS = ("von_mises_max", "von_mises_depth", "near_surface_share", "dang_van_ratio", "crossland_ratio")
 

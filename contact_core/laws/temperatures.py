@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..arrays import Array
+
 Nodes = NDArray[np.bool_]
 Pair = tuple[float, float]  # of body 1 and 2
 

@@ -9,14 +9,11 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..quantities import parameter
 from .base import Viscosity
 from .elementary import Numbers, exp, log, log10, maximum, minimum
 from .equations import Equations
-
-Array = NDArray[np.float64]
 
 _P0 = 1.0 / 5.1e-9  # Pa
 _LN_ETA_INF = -9.67  # ln(6.31e-5 Pa s)

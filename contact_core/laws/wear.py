@@ -5,14 +5,13 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..quantities import parameter
 from .base import Wear
 from .elementary import Numbers, exp
 from .equations import Equations
 
-Array = NDArray[np.float64]
 Speeds = tuple[float | Array, float]
 
 

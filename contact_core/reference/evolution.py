@@ -1,19 +1,19 @@
 """Tribofilm over time."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from .constants import BOLTZMANN, PLANCK
 
 
 def ghanbarzadeh_thickness(
-    time: float | NDArray[np.float64],
+    time: float | Array,
     temperature: float,
     full_thickness: float,
     rate_factor: float,
     removal_thickness: float,
     removal_rate: float,
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the tribofilm [m] on a point rubbed for `time` [s] from bare: h_max (1 - e^-kt) - C3 (1 - e^-C4 t).
 
     k = (k_B T / h) rate_factor [1/s] at `temperature` [K]; h_max and C3 [m]; C4 = removal_rate [1/s].

@@ -9,7 +9,8 @@ import numpy as np
 import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..arrays import Array
+
 Nodes = tuple[Array, Array]  # pressures over the largest [n, 1], their weights in the mean over the contact [n]
 
 _GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(10)

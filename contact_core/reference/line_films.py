@@ -5,8 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from .point_films import at_no_pressure
 
 
@@ -25,7 +25,7 @@ class SmoothLine:
     def of(
         load: float,
         entrainment_speed: float,
-        viscosity: Callable[[NDArray[np.float64], float], NDArray[np.float64]],
+        viscosity: Callable[[Array, float], Array],
         temperature: float,
         radius: float,
         reduced_modulus: float,

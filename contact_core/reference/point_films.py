@@ -6,17 +6,15 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from .hertz import hertz_point
 
 # of Moes' numbers: beyond them, where films are far from any other length, powers of theirs are no floats any more
 _LEAST_LOAD, _LEAST_LUBRICANT, _LEAST_SPEED = 1e-30, 1e-20, 1e-200
 
 
-def at_no_pressure(
-    viscosity: Callable[[NDArray[np.float64], float], NDArray[np.float64]], temperature: float
-) -> tuple[float, float]:
+def at_no_pressure(viscosity: Callable[[Array, float], Array], temperature: float) -> tuple[float, float]:
     """Return viscosity [Pa s] and pressure coefficient [1/Pa] at p = 0 of a law.
 
     It is a law of pressures [Pa] and a temperature [K].
@@ -41,7 +39,7 @@ class SmoothContact:
     def of(
         load: float,
         entrainment_speed: float,
-        viscosity: Callable[[NDArray[np.float64], float], NDArray[np.float64]],
+        viscosity: Callable[[Array, float], Array],
         temperature: float,
         radius_x: float,
         radius_y: float,

@@ -6,12 +6,14 @@ Beyond the ends, where there is no roller, the drop is infinite.
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from ..arrays import Array
 
 
 def logarithmic_drop(
     y: ArrayLike, length: float, depth: float, crowned: float = 1.0, end_drop: float = math.inf
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the drop depth ln{1 / [1 - (1 - exp(-end_drop / depth)) s^2]}.
 
     s = 0 to 1 over the crowned part of either half.
@@ -30,7 +32,7 @@ def logarithmic_drop(
     return np.where(y <= 0.5 * length, drop, math.inf)
 
 
-def rounded_drop(y: ArrayLike, length: float, straight: float, radius: float) -> NDArray[np.float64]:
+def rounded_drop(y: ArrayLike, length: float, straight: float, radius: float) -> Array:
     """Return the drop of a straight middle [m] and ends of circular arcs [m] tangent to it.
 
     Without a middle, of a crown.

@@ -7,7 +7,9 @@ from typing import Any
 
 import numpy as np
 import scipy  # its parts are loaded at their first use
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from ..arrays import Array
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,7 @@ class ParabolicSlider:
         """Flow of oil over u_e [m]: the gap at the largest pressure and at the film rupture."""
         return self.gap / math.cos(self._end) ** 2
 
-    def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
+    def pressure(self, x: ArrayLike) -> Array:
         """Return the pressure [Pa] at x [m]."""
         x = np.asarray(x)
         t = np.clip(np.arctan(x / self._length), self._start, self._end)
@@ -79,7 +81,7 @@ class ParabolicSlider:
         pressure = scale * (_integral(t, self._end) - _integral(self._start, self._end))
         return np.where((x > self.inlet) & (x < self.outlet), pressure, 0.0)
 
-    def oil(self, x: ArrayLike) -> NDArray[np.float64]:
+    def oil(self, x: ArrayLike) -> Array:
         """Return the thickness [m] of the oil in the gap at x [m]: the gap where it is full, `film` elsewhere."""
         x = np.asarray(x)
         full = (x >= self.inlet) & (x <= self.outlet)

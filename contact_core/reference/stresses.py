@@ -5,9 +5,9 @@ Components xx, yy, zz, yz, xz, xy [6, ...], tension positive, z into the body, i
 
 import numpy as np
 import scipy  # its parts are loaded at their first use
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from ..arrays import Array
 
 _TINY = 1e-300
 

@@ -10,16 +10,14 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..laws.load_sharing import sliding_ratio
 from ..scene import Case
 from .load_sharing import UNFITTED, Fit, Parted, Shares, Surfaces, parted, shared, surfaces_of
 from .oil import Law, MeanHeat, oil_shear
 from .smooth_film import KELVIN, LIGHTEST, SLOWEST, STEP, SmoothFilm, smooth_film
 from .surfaces import Tribofilms, composite_roughness, mean_cover
-
-Array = NDArray[np.float64]
 
 _WARMER = np.array([0.0, 0.0, 0.0, 0.0, KELVIN, 0.0])
 _TO_KNOW = 2  # points that all but the derivatives need

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..kernels.damage import accumulated, pits_of, worn_away
 from ..kernels.load_cycle import Cycle
 from ..scene import Case, Scene
@@ -20,8 +21,6 @@ from .contact import MeanContact
 from .outputs import run_in
 from .stress import stressed
 from .surfaces import Means
-
-Array = NDArray[np.float64]
 
 _LAG = 0.01  # of the first layer's depth: wear below that waits
 _FEWEST = 1.0 / 64.0  # part of a step within which classes that fail count as failing together

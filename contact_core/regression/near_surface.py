@@ -14,11 +14,9 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..laws.elementary import Numbers
-
-Array = NDArray[np.float64]
 
 _FAINT = 1e-9  # of the local pressure: roughness that is felt by nobody
 _OWN = 3.0  # power of the other body's share of the roughness in what a body meets, chosen

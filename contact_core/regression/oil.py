@@ -4,14 +4,13 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..errors import ConvergenceError
 from ..laws.base import Heat
 from ..reference import Hertz
 from ..scene import Scene
 
-Array = NDArray[np.float64]
 Pair = tuple[Array, Array]  # of body 1 and 2
 # laws take anything that broadcasts: plain floats, which are faster than arrays of one, and arrays of temperatures
 Law = Callable[..., Any]

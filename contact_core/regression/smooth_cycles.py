@@ -10,11 +10,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..kernels.load_cycle import cycle_of
 from ..kernels.stress_measures import von_mises
 from ..scene.records import POISSON
-
-Array = NDArray[np.float64]
 
 _DEPTHS = np.geomspace(0.004, 12.0, 48)  # over the half width along x
 _LOGS = np.log(_DEPTHS)

@@ -5,7 +5,6 @@ from statistics import NormalDist
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..kernels.load_cycle import Cycle
 from ..laws.load_sharing import rms_slope, sliding_ratio
@@ -17,8 +16,6 @@ from .contact import MeanContact
 from .near_surface import CURVES, FITTED, HALF_WIDTH, Rough, meetings
 from .smooth_cycles import smooth_cycles
 from .smooth_film import LIGHTEST
-
-Array = NDArray[np.float64]
 
 _NORMAL = NormalDist()
 _SCORES = np.array([_NORMAL.inv_cdf(share) for share in EDGES - 0.5 * WEIGHTS])  # of the middle of each class

@@ -7,9 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import Array
 from ..film import Deterministic, Regression
 from ..film.instant import Grid
 from ..laws.base import BoundaryFriction, Fatigue, Heat, Oxide, Plasticity, Scuffing, Stress, Tribofilm, Wear
@@ -110,7 +108,7 @@ class SceneFields:
         return self.film.width or self.period * self.film.spacing, self.film.domain
 
     @cached_property
-    def depths(self) -> NDArray[np.float64]:
+    def depths(self) -> Array:
         """Depths [m] below the surfaces at which stresses are sampled."""
         return self.stress.depths(self.film.spacing, self.hertz(self.operation.load).a)
 

@@ -6,11 +6,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from ..errors import SceneError
-
-Array = NDArray[np.float64]
 
 _LEAST, _MOST = 4, 2**24  # numbers in an array
 

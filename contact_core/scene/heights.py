@@ -9,12 +9,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..errors import SceneError
 from ..quantities import parameter
 from . import units
 from .height_map import HeightMap, HeightStatistics, read, statistics_of
-
-Array = NDArray[np.float64]
 
 WIDEST = 1e-3  # m between neighbours
 _RMS = (2e-10, 1e-4)  # m: less is smooth, more is no roughness

@@ -7,14 +7,12 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..laws.asperity_layer import AsperityLayer
 from ..laws.equations import Equations
 from ..quantities import parameter
 from .heights import Heights
-
-Array = NDArray[np.float64]
 
 SEEDS = 2**31  # number of seeds of a surface: the integers of FMI
 

@@ -7,16 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import Array
 from ..laws.base import Law
 from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing
 from ..quantities import input_parameter, parameter
 from ..reference import Hertz, SmoothContact, SmoothLine
 
-Array = NDArray[np.float64]
 Viscosity = Callable[[Array, float], Array]  # [Pa s] at pressures [Pa] and a temperature [K]
 
 

@@ -10,8 +10,8 @@ from functools import cache, cached_property
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..errors import StateError
 from ..film.instant import FilmState
 from ..laws.tribofilm import thickness
@@ -23,7 +23,6 @@ from .solved import Solved
 from .storage import Reader, numbers, stored
 from .trends import NAMES, Trends
 
-Array = NDArray[np.float64]
 _Record = TypeVar("_Record", "ContactState", "Outputs", "Mean", OperatingPoint)
 _MAGIC, _SCHEMA = b"tribofmu", 11
 _FEWEST = 100  # bytes that a header of schema 5 or before has at least

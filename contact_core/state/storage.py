@@ -15,6 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
+
 _ARRAY = struct.Struct("<3s?IIQ")  # dtype, of one value, rows, columns (0: no rows), its bits or the checksum
 _LETTERS: dict[Any, str] = {float: "d", float | None: "d", int: "q"}
 
@@ -32,7 +34,7 @@ class Kind:
         self.fetch = itemgetter(*letters) if len(letters) > 1 else lambda of: tuple(of[name] for name in letters)
 
 
-_REALS, _BOOLEANS = NDArray[np.float64], NDArray[np.bool_]
+_REALS, _BOOLEANS = Array, NDArray[np.bool_]
 _kind = cache(Kind)
 
 

@@ -8,11 +8,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..quantities import OUTPUTS
-
-Array = NDArray[np.float64]
 
 _OF = {kind: [q for q in OUTPUTS if q.trend == kind] for kind in ("level", "slope", "rate")}
 SMOOTHED = tuple(q.name for q in _OF["level"])

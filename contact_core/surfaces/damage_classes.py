@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..scene import Scene
 from ..state import Below, Body, ContactState
 from ..state.below import nothing_below
 from ..state.classes import EDGES, WEIGHTS, Classes, unharmed_classes
 from .patches import bare_heights, solid_of, track_rows
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _WHOLE = np.nextafter(1.0, 0.0)  # largest damage of material that has not failed

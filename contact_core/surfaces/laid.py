@@ -6,10 +6,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..scene import Heights, HeightStatistics, Scene, statistics_of
 from .roughness import generate
-
-Array = NDArray[np.float64]
 
 _CHUNK = 2**20  # numbers under one spline
 

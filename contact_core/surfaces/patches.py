@@ -12,12 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..scene import Scene, SelfAffine, Surface
 from ..state import Body, ContactState
 from .laid import laid
 from .roughness import generate, groove_free
-
-Array = NDArray[np.float64]
 
 _ON_NODE = 1e-9  # part of a node that is none
 _MIDDLE = 2.0 / 3.0  # share of the track over which roughness is measured

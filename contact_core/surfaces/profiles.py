@@ -3,15 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..errors import StateError
 from ..scene import Scene
 from ..state import ContactState
 from .patches import bare_heights, heights_of
 from .track_means import folded
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -3,10 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..errors import SceneError
 from ..scene import SelfAffine, Surface
-
-Array = NDArray[np.float64]
 
 
 def generate(surface: Surface | SelfAffine, points: int, domain: float, body: int, period: int | None = None) -> Array:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..laws.tribofilm import thickness
 from ..scene import Scene
 from ..state import Body, ContactState, Mean
@@ -14,7 +15,6 @@ from .damage_classes import folded_damage
 from .patches import bare_heights, middle_rows, roughness_of, track_rows
 from .roughness import rms_roughness
 
-Array = NDArray[np.float64]
 Means = tuple[Mean, Mean]
 
 _HALVINGS = 40  # of an interval of heights

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact_core.arrays import Array
+
 Spans = Sequence[tuple[float, float]]
 
 # of Okabe and Ito, which the colour-blind can tell apart; dashes tell lines apart without colours

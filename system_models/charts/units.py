@@ -5,7 +5,9 @@ import re
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from contact_core.arrays import Array
 
 from .half_widths import digits_of
 
@@ -30,7 +32,7 @@ class Unit(NamedTuple):
     factor: float = 1.0
     offset: float = 0.0
 
-    def of(self, values: ArrayLike) -> NDArray[np.float64]:
+    def of(self, values: ArrayLike) -> Array:
         """Return values in SI in this unit."""
         return self.factor * np.asarray(values, dtype=float) + self.offset
 

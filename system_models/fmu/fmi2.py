@@ -13,7 +13,8 @@ from fmpy.fmi2 import (
     fmi2ValueReference,
 )
 from fmpy.model_description import ModelVariable
-from numpy.typing import NDArray
+
+from contact_core.arrays import Array
 
 from .instance import Instance
 from .kinds import discrete, kind
@@ -40,7 +41,7 @@ class Fmi2Instance(Instance):
         self._no_return = not self.model.restores  # whether it is promised that no state before a step comes back
         self._order = 0  # of the buffers for derivatives of the inputs
 
-    def _hold(self, polynomial: NDArray[np.float64], size: float) -> None:
+    def _hold(self, polynomial: Array, size: float) -> None:
         super()._hold(polynomial, size)
         order = len(polynomial) - 1
         if self.interpolates:
@@ -48,7 +49,7 @@ class Fmi2Instance(Instance):
             if self.derivative_order:
                 self._set_derivatives(self.derivative_order, polynomial)
 
-    def _set_derivatives(self, order: int, polynomial: NDArray[np.float64]) -> None:
+    def _set_derivatives(self, order: int, polynomial: Array) -> None:
         """Set those of continuous inputs, up to the highest order that was ever set: an FMU may keep old ones."""
         count = len(self._smooth) * order
         if order > self._order:

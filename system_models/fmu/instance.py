@@ -11,7 +11,8 @@ import fmpy
 import numpy as np
 from fmpy.fmi2 import fmi2ValueReference
 from fmpy.model_description import ModelVariable
-from numpy.typing import NDArray
+
+from contact_core.arrays import Array
 
 from ..numerics import hold
 from . import messages
@@ -53,7 +54,7 @@ class Instance(ABC):
         self._refuse_platform(folder)
         self._instantiate(folder)
 
-    def step(self, time: float, size: float, polynomial: NDArray[np.float64]) -> float:
+    def step(self, time: float, size: float, polynomial: Array) -> float:
         """Advance from `time` by `size`, both in s, and return the time reached: earlier if the FMU stops before.
 
         polynomial [order + 1, inputs]: coefficients of the inputs in powers of the time since `time`. An FMU that takes
@@ -75,7 +76,7 @@ class Instance(ABC):
         if self.outputs.count:
             self._get_outputs()
 
-    def _hold(self, polynomial: NDArray[np.float64], size: float) -> None:
+    def _hold(self, polynomial: Array, size: float) -> None:
         if len(polynomial) > 1 and not self.interpolates:
             self.inputs.values[:] = hold.mean(polynomial, size)
         else:

@@ -3,11 +3,9 @@
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.errors import ContactError
-
-Array = NDArray[np.float64]
 
 MOST_MISSING = 0.25  # share of points: more is not filled but invented
 LEAST = 8  # points along an edge of an image

@@ -9,15 +9,13 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.errors import ContactError
 from contact_core.scene.height_map import statistics_of
 from contact_core.scene.heights import WIDEST, implausible
 
 from .image import MOST_MISSING, HeightImage
-
-Array = NDArray[np.float64]
 
 FORMS = {"none": (), "plane": ((1, 0), (0, 1)), "curvature": ((1, 0), (0, 1), (2, 0), (1, 1), (0, 2))}  # powers of x, y
 _OCTAVES = 2  # below the patch that must be resolved

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from contact_core import OperatingPoint
+from contact_core.arrays import Array
 from contact_core.corrections.kriging import (
     CORRECTED,
     Conditioned,
@@ -28,8 +28,6 @@ from contact_core.scene import Case, Scene
 from .assembly import Assembly
 from .report import loss_error, lost
 from .resolve import COMPARED, FAST, Resolved, started
-
-Array = NDArray[np.float64]
 
 
 def knots_of(states: Sequence[Resolved]) -> Knots:

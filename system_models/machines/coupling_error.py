@@ -11,6 +11,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from contact_core.arrays import Array
+
 from ..charts.units import CELSIUS
 from ..run.cosim_report import recorded
 from .assembly import Schedule
@@ -33,12 +35,12 @@ def coarser(dataset: xr.Dataset, settings: Mapping[str, Any], schedule: Schedule
     return {key: value for key, value in settings.items() if key not in _CHOOSING} | {"points": points}
 
 
-def _every_second(times: NDArray[np.float64]) -> NDArray[np.float64]:
+def _every_second(times: Array) -> Array:
     """Return the second, the fourth and so on, and the last."""
     return np.union1d(times[1::2], times[-1:])
 
 
-def _after_changes(times: NDArray[np.float64], schedule: Schedule) -> NDArray[np.int_]:
+def _after_changes(times: Array, schedule: Schedule) -> NDArray[np.int_]:
     """Return indices of the first times [s] after each change of the schedule."""
     changes = sorted({float(time) for steps in schedule.values() for time, _ in steps if time < times[-1]})
     return np.unique(np.searchsorted(times, changes, "right"))
@@ -57,7 +59,7 @@ def stated(dataset: xr.Dataset, coarse: xr.Dataset, schedule: Schedule) -> xr.Da
     return found
 
 
-def _jump(values: NDArray[np.float64], compared: NDArray[np.bool_]) -> float:
+def _jump(values: Array, compared: NDArray[np.bool_]) -> float:
     """Return the largest isolated change of values in one of the steps that are `compared`.
 
     It is far larger than the changes beside it. Jumps that `differences` leaves out do not count.
@@ -68,7 +70,7 @@ def _jump(values: NDArray[np.float64], compared: NDArray[np.bool_]) -> float:
     return float(change[compared & alone].max(initial=0.0))
 
 
-def differences(dataset: xr.Dataset, other: xr.Dataset, times: NDArray[np.float64]) -> dict[str, float]:
+def differences(dataset: xr.Dataset, other: xr.Dataset, times: Array) -> dict[str, float]:
     """Return the largest difference of each Real between two results, in its unit.
 
     At those of some times [s] that lie three steps or more from its jumps.
@@ -85,7 +87,7 @@ def differences(dataset: xr.Dataset, other: xr.Dataset, times: NDArray[np.float6
     return found
 
 
-def settled(dataset: xr.Dataset, schedule: Schedule, first: int = _FIRST) -> NDArray[np.float64]:
+def settled(dataset: xr.Dataset, schedule: Schedule, first: int = _FIRST) -> Array:
     """Return the times [s] of a result without the first ones after the start and after each change of the schedule."""
     times = dataset["time"].values[1:]
     return np.concatenate([part[first:] for part in np.split(times, _after_changes(times, schedule))])

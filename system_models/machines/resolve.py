@@ -15,6 +15,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from contact_core import ContactError, ContactState, OperatingPoint, Outputs, RangeFlag, advance, initial_state
+from contact_core.arrays import Array
 from contact_core.corrections.kriging import Place, pair_of, place
 from contact_core.quantities import LEVELS
 from contact_core.scene import Case, Scene, tunables, with_values
@@ -120,7 +121,7 @@ def _unpacked(packed: bytes) -> Resolved:
     return Resolved(**{**table, **outputs, "place": place and Place(*place)})
 
 
-def _windows(times: NDArray[np.float64], count: int) -> Iterator[Sequence[int]]:
+def _windows(times: Array, count: int) -> Iterator[Sequence[int]]:
     """Yield rows from which one state is to be taken, best first.
 
     First all rows; then those of `count` - 1 equal parts of the time, each from its end.

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.scene import Case, OperatingPoint
 from contact_core.state import RangeFlag
 
@@ -182,7 +183,7 @@ def of_contact(assembly: Assembly, dataset: xr.Dataset, name: str) -> xr.Dataset
     return found
 
 
-def _held(course: Sequence[tuple[float, Any]], times: NDArray[np.float64]) -> NDArray[np.float64]:
+def _held(course: Sequence[tuple[float, Any]], times: Array) -> Array:
     """Return the values that a scheduled input has in the steps that end at some times [s]."""
     starts, values = (np.array(column, dtype=float) for column in zip(*course, strict=True))
     return values[np.maximum(np.searchsorted(starts, times, "left") - 1, 0)]

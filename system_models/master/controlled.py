@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.scene.toml import did_you_mean
 
 from ..fmu.errors import CouplingError, NotFiniteError
@@ -134,7 +135,7 @@ class ControlledStepper(Stepper):
         seen, gains = [indicators, self._indicators.values()], self._gains(changes, coupled.ends() - before)
         return Attempt(size, rows, seen, ratio, errors, gains, of_halves, event)
 
-    def _gains(self, changes: NDArray[np.float64], of_inputs: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _gains(self, changes: Array, of_inputs: Array) -> Array:
         """Return the changes of the coupled outputs over those of the inputs of their FMUs."""
         norms = np.array([np.linalg.norm(of_inputs[beside]) for beside in self.coupled.wiring.beside])
         return np.divide(changes, norms, out=np.zeros(len(changes)), where=norms > 0.0)
@@ -148,14 +149,14 @@ class ControlledStepper(Stepper):
         """Return the share of the tolerance for a step: in proportion to it, but no less than the level of noise."""
         return min(1.0, max(_LEAST_SHARE, size / self.horizon))
 
-    def _scales(self) -> NDArray[np.float64]:
+    def _scales(self) -> Array:
         """Return magnitudes of the outputs that set inputs."""
         return self.coupled.magnitudes.scales(self.coupled.outputs)[self.coupled.wiring.coupled]
 
-    def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
+    def _ratio(self, errors: Array, size: float) -> float:
         return wrms(errors, np.maximum(self._shares(size), self._noise) * self._scales())
 
-    def _shares(self, size: float) -> NDArray[np.float64]:
+    def _shares(self, size: float) -> Array:
         """Return the errors that a step may have, relative to the magnitudes."""
         return self.tolerance * np.where(self.lags < _EVIDENCE, self._share(size), 1.0)
 

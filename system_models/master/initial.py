@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException, fmi1Discard
-from numpy.typing import NDArray
+
+from contact_core.arrays import Array
 
 from ..fmu.errors import CouplingError
 from ..fmu.instance import Instance
@@ -20,7 +21,6 @@ from .sequence import sorted_loops
 from .system import Connection
 
 Edges = set[tuple[str, str]]
-Array = NDArray[np.float64]
 
 log = logging.getLogger(__name__)
 

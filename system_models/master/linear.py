@@ -7,13 +7,12 @@ u = L y (Andersson, C., Methods and Tools for Co-Simulation of Dynamic Systems w
 """
 
 import numpy as np
-from numpy.typing import NDArray
+
+from contact_core.arrays import Array
 
 from ..fmu.errors import CouplingError
 from .system import System
 from .wiring import Wiring
-
-Array = NDArray[np.float64]
 
 
 class Correction:

@@ -7,7 +7,8 @@ from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from contact_core.arrays import Array
 
 from ..fmu import messages
 from ..fmu.errors import CouplingError
@@ -24,8 +25,8 @@ class Attempt(NamedTuple):
     rows: list[Row]
     indicators: list[Values]  # of events, by row
     error: float = 0.0  # over the allowed one: up to 1 it is accepted
-    errors: NDArray[np.float64] = np.zeros(0)  # of the coupled outputs
-    gains: NDArray[np.float64] = np.zeros(0)  # their changes over those of the inputs of their FMU
+    errors: Array = np.zeros(0)  # of the coupled outputs
+    gains: Array = np.zeros(0)  # their changes over those of the inputs of their FMU
     halves: Halves = Halves(0.0, 0.0)
     event: bool = False  # an FMU has met one of its own before the last row
 

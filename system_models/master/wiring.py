@@ -7,10 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_core.arrays import Array
+
 from ..fmu.instance import Instance, Reals
 from .system import Port, System
 
-Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 
 

@@ -7,9 +7,8 @@ orthogonal, so stiff networks and long steps lose no digits.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact_core.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from functools import lru_cache
 
 import numpy as np
 import scipy  # its parts are loaded at their first use
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from contact_core.arrays import Array
+
 Matrix = tuple[tuple[float, ...], ...]  # rows
 
 

@@ -10,14 +10,13 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from contact_core.arrays import Array
 
 from . import linear
 from .eigen import symmetric_eigen
 from .part import Values
 from .thermal import Course, Piece, Regimes, ThermalNetwork
-
-Array = NDArray[np.float64]
 
 _TERMS = 18  # of the series of the exponential, for a norm up to 1
 _LOOKS = 61  # times in a step at which thermostats are looked at, from 1e-6 of it on

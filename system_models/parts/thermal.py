@@ -9,8 +9,8 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 import scipy  # its parts are loaded at their first use
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.errors import SceneError
 from contact_core.quantities import parameter
 from contact_core.scene.toml import did_you_mean
@@ -18,7 +18,6 @@ from contact_core.scene.toml import did_you_mean
 from .conduction import Modes
 from .part import Input, Output, Part, State, Values, indexed
 
-Array = NDArray[np.float64]
 Regimes = tuple[int, ...]  # by thermostat: -1 heats and 1 cools as much as it can, 0 is between
 
 AMBIENT = "ambient"

@@ -7,6 +7,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from contact_core.arrays import Array
+
 from ..charts.chart import Chart, Line, Sheet
 from ..fmu.printable import printable
 
@@ -96,7 +98,7 @@ def _steps(dataset: xr.Dataset) -> str:
     return f"{line}; {counts['rejected']} rejected, {counts['stopped_early']} stopped early by an FMU."
 
 
-def _varies(sizes: NDArray[np.float64]) -> bool:
+def _varies(sizes: Array) -> bool:
     return bool(sizes.min() < _SAME * sizes.max())
 
 

@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_core import OperatingPoint, Scene
+from contact_core.arrays import Array
 from contact_core.errors import SceneError
 from contact_core.quantities import INPUTS, OUTPUTS, Quantity, measured_range
 
 from . import duty_table
 
-Array = NDArray[np.float64]
 SD = "_sd"  # after the name of an output: its standard deviation
 # a temperature of degC and a difference of K share their unit; errors are not measured
 MEASURABLE = {q.name: q for q in OUTPUTS if q.kind == "Real" and q.unit != "K" and not q.name.startswith("error_")}

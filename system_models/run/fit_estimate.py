@@ -24,7 +24,8 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq, least_squares
 from scipy.stats import norm, qmc, t
 
-Array = NDArray[np.float64]
+from contact_core.arrays import Array
+
 Curve = Callable[[Array], Array]  # shares of the ranges to numbers at all points; NaN where there are none
 
 COVERED = 0.9  # of the intervals

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_core import OperatingPoint, Scene, advance, initial_state, uncertainty
+from contact_core.arrays import Array
 from contact_core.errors import ContactError, SceneError
 from contact_core.scene import units
 from contact_core.scene.toml import did_you_mean
 from contact_core.scene.tunables import tunables, with_values
 
-Array = NDArray[np.float64]
 _DECADE = 10.0  # a range from this factor on is searched by its logarithm
 _EITHER_WAY = {"J": 2.0}  # by unit: range about a value, as a factor; energies are in exponents
 _USUAL = 10.0

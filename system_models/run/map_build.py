@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.corrections.fitting import Rule, Samples, TooFewError, fitted, widths_at
 from contact_core.corrections.knot import History, coarser, contact_of, samples_of, solve
 from contact_core.corrections.kriging import CORRECTED
@@ -27,8 +27,6 @@ from contact_core.scene import Scene
 
 from .map_ranges import Ranges
 from .workers import done_by, workers
-
-Array = NDArray[np.float64]
 
 SEED = 1  # of the histories
 _GROUP = 4  # histories on the coarser grid, the first of which is solved on the scene's as well

@@ -12,9 +12,10 @@ from itertools import chain, pairwise
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from contact_core import ContactState, OperatingPoint, Outputs, Scene, advance, initial_state
+from contact_core.arrays import Array
 from contact_core.errors import ContactError, ConvergenceError
 from contact_core.progress import tell
 from contact_core.quantities import TABLE
@@ -27,7 +28,6 @@ from .workers import Workers, WorkersLostError, done_by, workers
 
 log = logging.getLogger(__name__)
 
-Array = NDArray[np.float64]
 _DIMENSIONS = ("rubbing_time", "entrainment_speed")
 _SWEPT = (  # at every speed
     "friction_coefficient",

@@ -9,11 +9,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.errors import ContactError
-
-Array = NDArray[np.float64]
 
 SEED = 1  # of samples
 METHODS = ("lhs", "sobol", "indices")

@@ -18,8 +18,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...quantities import parameter
 from ...reference.constants import BOLTZMANN
 from ..equations import Equations
@@ -27,7 +27,6 @@ from .doses import DOSES
 from .fitted import Ghanbarzadeh, beyond_fit, fit_temperature, supply_rate, thickness
 from .relaxation import formed
 
-Array = NDArray[np.float64]
 Temperature = float | Array
 
 _COLDEST, _HOTTEST = 333.15, 393.15  # K, bulk: about the range of tests on rigs; assumed

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...quantities import parameter
 from ...reference.constants import BOLTZMANN
 from ..elementary import Numbers, exp
@@ -14,8 +14,6 @@ from ..equations import Equations
 from .doses import DOSES
 from .fitted import Ghanbarzadeh, fit_temperature, supply_rate
 from .relaxation import formed, mean, rubbed, taken
-
-Array = NDArray[np.float64]
 
 _BEYOND = 5.0  # K to either side of the fits
 

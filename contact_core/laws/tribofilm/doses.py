@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ..equations import Equations
-
-Array = NDArray[np.float64]
 
 
 class Passes(NamedTuple):

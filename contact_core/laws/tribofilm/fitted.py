@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...quantities import parameter
 from ...reference.constants import BOLTZMANN, PLANCK
 from ..elementary import Numbers
@@ -14,7 +14,6 @@ from ..equations import Equations
 from .doses import DOSES
 from .relaxation import formed, mean, relaxed, rubbed, taken
 
-Array = NDArray[np.float64]
 Temperature = float | Array
 
 _FIT_WIDTH = 5.0  # K to either side of the fit

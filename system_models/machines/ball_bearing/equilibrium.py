@@ -15,12 +15,11 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from contact_core.arrays import Array
 
 from .geometry import BallBearingGeometry
 from .kernels import BALANCED, cage, settle
-
-Array = NDArray[np.float64]
 
 _CENTRING = 1e-2  # N/m: holds the ring where no ball does, such as in its clearance
 

@@ -24,12 +24,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from contact_core.arrays import Array
 
 from .equilibrium import Equilibrium
 from .geometry import BallBearingGeometry, RaceName
-
-Array = NDArray[np.float64]
 
 NEUTRAL_COULOMB = 2.0 * math.sin(math.pi / 18.0)  # y0 / b that halves the load: 3 s - s^3 = 1
 # mean of |y0^2 - y^2| / b^2, weighted with the pressure

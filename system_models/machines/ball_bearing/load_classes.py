@@ -17,12 +17,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from contact_core.arrays import Array
 
 from .geometry import BallBearingGeometry, Race
 from .kinematics import SLIDE_COULOMB, Motion
-
-Array = NDArray[np.float64]
 
 _CLOUD = 1e-4  # half width of a ball's cloud over its Q^(1/3)
 _LEAST = 1e-9  # least load of a ball on the outer race over the largest one

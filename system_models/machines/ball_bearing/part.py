@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.errors import ContactError
 from contact_core.quantities import TABLE, parameter
 
@@ -15,8 +15,6 @@ from .equilibrium import Equilibrium, RingLoads, solve
 from .geometry import RACES, BallBearingGeometry, Race, RaceName
 from .kinematics import Motion, motion
 from .load_classes import Classes, classify, track_lengths
-
-Array = NDArray[np.float64]
 
 _FORCE: dict[str, Any] = {"unit": "N", "nominal": 1000.0, "minimum": -1e6, "maximum": 1e6}
 _MOMENT: dict[str, Any] = {"unit": "N m", "nominal": 10.0, "minimum": -1e5, "maximum": 1e5}

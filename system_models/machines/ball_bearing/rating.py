@@ -11,15 +11,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.errors import ContactError
 from contact_core.quantities import parameter
 
 from .geometry import BallBearingGeometry, RaceName
 from .textbook import catalogue_of
-
-Array = NDArray[np.float64]
 
 MILLION = 1e6  # revolutions that a bearing survives under its rating
 TURNING, STANDING = 3.0, 10.0 / 3.0  # exponents of the mean load of balls: ring that turns under the load, at rest

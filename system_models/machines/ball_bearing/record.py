@@ -11,6 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from contact_core import OperatingPoint, advance, initial_state
+from contact_core.arrays import Array
 from contact_core.laws.viscosity import kinematic_viscosity
 
 from ...parts.part import indexed
@@ -21,7 +22,6 @@ from .geometry import RACES, RaceName
 from .part import BallBearing, contact_name
 from .textbook import CatalogueBearing, Torque, catalogue_of, palmgren_torque, skf_torque
 
-Array = NDArray[np.float64]
 Parts = dict[str, Array]  # friction torque [N m] by cause, arrays [time], NaN at standstill
 Formula = Callable[[CatalogueBearing, float, float, float, float], Torque]  # radial, axial, speed, viscosity
 

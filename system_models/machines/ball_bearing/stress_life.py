@@ -19,16 +19,14 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.kernels.stress_measures import von_mises
 from contact_core.kernels.subsurface import Subsurface
 from contact_core.reference import Hertz
 
 from .geometry import Race
 from .rating import FATIGUE_PRESSURE, WEIBULL
-
-Array = NDArray[np.float64]
 
 STRESS_POWER, DEPTH_POWER = 31.0 / 3.0, 7.0 / 3.0
 DEPTHS = (0.01, 0.02, 0.04, 0.06, 0.09, 0.13, 0.18, 0.24, 0.31, 0.39, 0.47, 0.56, 0.66, 0.78, 0.92, 1.1, 1.35, 1.7, 2.2)

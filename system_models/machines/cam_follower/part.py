@@ -6,15 +6,13 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.errors import SceneError
 from contact_core.quantities import TABLE, parameter
 
 from ...parts.part import Input, Output, Part, State, Values, indexed
 from .profile import CamProfile, Station
-
-Array = NDArray[np.float64]
 
 # outputs of contacts that the cam receives and inputs of contacts that it sends, with typical values in SI
 RECEIVED = {

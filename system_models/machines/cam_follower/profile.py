@@ -7,11 +7,9 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.quantities import parameter
-
-Array = NDArray[np.float64]
 
 _ANGLES = 2001  # at which the profile is checked
 _WITHIN = 33  # angles of a station at which the travel of the contact is summed

@@ -5,13 +5,12 @@ from functools import cached_property
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
+
+from contact_core.arrays import Array
 
 from ..assembly import Assembly
 from ..report import heat_stored
 from .part import CamFollower, contact_name
-
-Array = NDArray[np.float64]
 
 _TURNS = 1.0  # rad/s: less is standing still
 

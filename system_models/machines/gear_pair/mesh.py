@@ -5,8 +5,8 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.errors import SceneError
 from contact_core.quantities import TABLE
 
@@ -15,8 +15,6 @@ from .geometry import SpurGearPair, fixed
 from .path import Stations, radius, stations_of, surface_speeds, track_lengths
 from .sharing import Sharing, loads
 from .textbook import loss_factor, ohlendorf
-
-Array = NDArray[np.float64]
 
 # outputs of contacts that the mesh receives and inputs of contacts that it sends, with typical values in SI
 RECEIVED = {

@@ -9,13 +9,12 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.errors import SceneError
 
 from .geometry import SpurGearPair
 
-Array = NDArray[np.float64]
 Numbers = TypeVar("Numbers", float, Array)
 
 _ALIKE = 1e-9  # of the path: distances below it are rounding

@@ -6,16 +6,14 @@ from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from contact_core.arrays import Array
 from contact_core.errors import SceneError
 from contact_core.quantities import parameter
 
 from ...parts.linear import exponential
 from ...parts.part import Input, Output, Part, State, Values
 from .geometry import SpurGearPair
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_core.arrays import Array
+
 from .geometry import SpurGearPair, fixed
 from .path import Numbers
-
-Array = NDArray[np.float64]
 
 _STEEL = 206e9  # Pa, of the teeth that ISO 6336 is fitted to
 _DEDENDUM = 1.25  # of the basic rack, in modules
