@@ -19,7 +19,7 @@ and a correction may move the estimate. Where to find what:
                      bulk temperature, tribofilm, wear, oxide, stress, fatigue, scuffing, load sharing, profiles: one
                      class per law
     kernels/         numba and FFT: arrays in, arrays out
-    reference/       closed forms: Hertz and stress below, films of points and lines, starvation, heat, wear
+    reference/       closed forms: Hertz, films of points and lines, starvation, rolling, heat, tribofilm
     quantities       names, symbols, units, signs and ranges of every input and output
     entry_points     what other installed packages offer
     progress         what a long step is doing, for those who wait

@@ -20,14 +20,11 @@ FORMULAS: dict[str, dict[str, tuple[str, ...]]] = {
         f"{_REFERENCE}line_films.py": ("moes_line_film", "dowson_line"),
         f"{_REFERENCE}starvation.py": ("supplied_film", "film_behind_meniscus"),
     },
-    "Rolling, squeeze and sliders": {
+    "Rolling": {
         f"{_REFERENCE}rolling.py": ("rolling_beyond_line", "rolling_beyond_point", "slipping_share"),
-        f"{_REFERENCE}squeeze.py": ("squeeze_point", "squeeze_line"),
-        f"{_REFERENCE}sliders.py": ("ParabolicSlider",),
     },
-    "Temperature and stress": {
+    "Temperature": {
         f"{_REFERENCE}heat.py": ("jaeger_circle", "tian_kennedy_circle"),
-        f"{_REFERENCE}stresses.py": ("circle_stress", "line_stress", "ellipse_axis_stress"),
     },
     "Stress below the surface and fatigue": {
         "contact_core/kernels/subsurface.py": (),

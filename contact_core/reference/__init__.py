@@ -1,13 +1,10 @@
 """Closed forms and formulas, to test solvers against and to compare with.
 
     hertz         dry contact of smooth bodies: points, lines
-    stresses      stress below points and lines; taken from there
     point_films   film of smooth point contacts by formula
     line_films    film of smooth line contacts
     starvation    film of contacts that are short of oil
-    sliders       pressure and cavitation of a rigid roller
     rolling       rolling resistance of smooth contacts, slip of dry ones
-    squeeze       rigid bodies that approach each other through oil
     profiles      of rollers
     oil           film factors for heat and shear of the oil
     evolution     tribofilm over time
@@ -25,6 +22,4 @@ from .oil import FILM_OF_VISCOSITY, bair_thinning_factor, inlet_shear_factor
 from .point_films import SmoothContact, hamrock_dowson, moes_film, nijenbanning_venner_moes, nvm_film
 from .profiles import logarithmic_drop, rounded_drop
 from .rolling import rolling_beyond_line, rolling_beyond_point, rolling_line, rolling_point, slipping_share
-from .sliders import ParabolicSlider
-from .squeeze import squeeze_line, squeeze_point
 from .starvation import film_behind_meniscus, supplied_film
