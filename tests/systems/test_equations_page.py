@@ -10,7 +10,7 @@ from benchmarks.house.equations import page
 from benchmarks.house.latex import latex
 from contact_core.film import FILMS
 from contact_core.laws import SLOTS
-from contact_core.laws.symbols import COMMON
+from contact_core.laws.symbols import common
 from contact_core.shapes import GEOMETRIES
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -36,7 +36,7 @@ def test_the_glossary_has_every_symbol_that_laws_share_with_its_unit():
         for names, units in ((first, second), (second, third)):
             symbols, each = names.split(", "), units.split(", ")
             known |= set(zip(symbols, each if len(each) == len(symbols) else len(symbols) * each, strict=False))
-    shared = {(symbol.translate(str.maketrans("′", "'", "{}")), unit or "1") for symbol, (unit, _) in COMMON.items()}
+    shared = {(symbol.translate(str.maketrans("′", "'", "{}")), unit or "1") for symbol, (unit, _) in common().items()}
     assert shared - known == set()
 
 
