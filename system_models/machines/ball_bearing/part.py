@@ -8,9 +8,9 @@ import numpy as np
 
 from contact_core.arrays import Array
 from contact_core.errors import ContactError
-from contact_core.quantities import TABLE, parameter
+from contact_core.quantities import parameter
 
-from ...parts.part import Input, Output, Part, State, Values, indexed
+from ...parts.part import Input, Output, Part, State, Values, indexed, of_contact
 from .equilibrium import Equilibrium, RingLoads, solve
 from .geometry import RACES, BallBearingGeometry, Race, RaceName
 from .kinematics import Motion, motion
@@ -103,7 +103,7 @@ class BallBearing(Part):
         return (
             *_SHAFT,
             *(
-                Input(**_alike(name, race, k, nominal))
+                Input(**_of_class(name, race, k, nominal))
                 for race in RACES
                 for name, nominal in RECEIVED.items()
                 for k in self._numbers
@@ -153,7 +153,7 @@ class BallBearing(Part):
         """Yield the outputs for the load classes of a race, and the numbers of balls that they stand for."""
         for name, nominal in SENT.items():
             for k in self._numbers:
-                yield Output(**_alike(name, race, k, nominal), direct=_BY_LOAD)
+                yield Output(**_of_class(name, race, k, nominal), direct=_BY_LOAD)
         for k in self._numbers:
             text = f"balls in class {k} of the {race} race"
             yield Output(indexed(f"count_{race}", k), "Z_k", "1", text, direct=_BY_LOAD)
@@ -281,15 +281,5 @@ def pressure(race: Race, load: float) -> float:
     return race.unit.pressure_max * race.unit.growth(load)[0]
 
 
-def _alike(name: str, race: RaceName, k: int, nominal: float) -> dict[str, Any]:
-    """Return the variable for a quantity of the contact of class k."""
-    q = TABLE[name]
-    return {
-        "name": indexed(f"{name}_{race}", k),
-        "symbol": q.symbol,
-        "unit": q.unit,
-        "text": f"{q.text}; class {k} of the {race} race",
-        "nominal": nominal,
-        "display": q.display,
-        "relative": q.relative,
-    }
+def _of_class(name: str, race: RaceName, k: int, nominal: float) -> dict[str, Any]:
+    return of_contact(name, indexed(f"{name}_{race}", k), f"class {k} of the {race} race", nominal)

@@ -9,9 +9,9 @@ import numpy as np
 
 from contact_core.arrays import Array
 from contact_core.errors import SceneError
-from contact_core.quantities import TABLE, parameter
+from contact_core.quantities import parameter
 
-from ...parts.part import Input, Output, Part, State, Values, indexed
+from ...parts.part import Input, Output, Part, State, Values, indexed, of_contact
 from .profile import CamProfile, Station
 
 # outputs of contacts that the cam receives and inputs of contacts that it sends, with typical values in SI
@@ -94,7 +94,7 @@ class CamFollower(Part):
     def inputs(self) -> tuple[Input, ...]:
         return (
             Input("speed", "w", "rad/s", "angular speed of the cam", nominal=100.0, display="rpm"),
-            *(Input(**_alike(name, k, nominal)) for name, nominal in RECEIVED.items() for k in self._numbers),
+            *(Input(**_at_station(name, k, nominal)) for name, nominal in RECEIVED.items() for k in self._numbers),
         )
 
     @property
@@ -107,7 +107,7 @@ class CamFollower(Part):
 
         return (
             *(
-                Output(**_alike(name, k, nominal), direct=() if name == "radius_x" else speed)
+                Output(**_at_station(name, k, nominal), direct=() if name == "radius_x" else speed)
                 for name, nominal in SENT.items()
                 for k in self._numbers
             ),
@@ -163,15 +163,5 @@ class CamFollower(Part):
         return max(turn * station.radius_x, least), max(turn * station.travel, least)
 
 
-def _alike(name: str, k: int, nominal: float) -> dict[str, Any]:
-    """Return the variable for a quantity of the contact at station k."""
-    q = TABLE[name]
-    return {
-        "name": indexed(name, k),
-        "symbol": q.symbol,
-        "unit": q.unit,
-        "text": f"{q.text}; station {k}",
-        "nominal": nominal,
-        "display": q.display,
-        "relative": q.relative,
-    }
+def _at_station(name: str, k: int, nominal: float) -> dict[str, Any]:
+    return of_contact(name, indexed(name, k), f"station {k}", nominal)

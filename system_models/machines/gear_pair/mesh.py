@@ -8,9 +8,8 @@ import numpy as np
 
 from contact_core.arrays import Array
 from contact_core.errors import SceneError
-from contact_core.quantities import TABLE
 
-from ...parts.part import Input, Output, Part, State, Values, indexed
+from ...parts.part import Input, Output, Part, State, Values, indexed, of_contact
 from .geometry import SpurGearPair, fixed
 from .path import Stations, radius, stations_of, surface_speeds, track_lengths
 from .sharing import Sharing, loads
@@ -104,7 +103,7 @@ class GearMesh(Part):
             ),
             Input("body_temperature_1", "T_b1", "K", "bulk temperature of the pinion", **hot),
             Input("body_temperature_2", "T_b2", "K", "bulk temperature of the wheel", **hot),
-            *(Input(**self._alike(name, k, nominal)) for name, nominal in RECEIVED.items() for k in self._numbers),
+            *(Input(**_at_station(name, k, nominal)) for name, nominal in RECEIVED.items() for k in self._numbers),
         )
 
     @property
@@ -118,7 +117,7 @@ class GearMesh(Part):
 
         return (
             *(
-                Output(**self._alike(name, k, nominal), direct=(_CAUSE[name],))
+                Output(**_at_station(name, k, nominal), direct=(_CAUSE[name],))
                 for name, nominal in SENT.items()
                 for k in self._numbers
             ),
@@ -150,19 +149,6 @@ class GearMesh(Part):
     @property
     def _numbers(self) -> range:
         return range(1, self.stations + 1)
-
-    @staticmethod
-    def _alike(name: str, k: int, nominal: float) -> dict[str, Any]:
-        """Return the variable for a quantity of the contact at station k."""
-        q = TABLE[name]
-        return {
-            "name": indexed(name, k),
-            "symbol": q.symbol,
-            "unit": q.unit,
-            "text": f"{q.text}; station {k}",
-            "nominal": nominal,
-            "relative": q.relative,
-        }
 
     def initial(self, inputs: Values) -> State:
         return ()
@@ -210,3 +196,7 @@ class GearMesh(Part):
     def _mean(self, values: Array) -> float:
         """Return the sum over all pairs in contact, averaged over a mesh cycle, of values [n] at the stations."""
         return float((self._weights * values).sum())
+
+
+def _at_station(name: str, k: int, nominal: float) -> dict[str, Any]:
+    return of_contact(name, indexed(name, k), f"station {k}", nominal)
