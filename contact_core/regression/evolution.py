@@ -236,3 +236,8 @@ def _body_after(
         formed=formed,
         oxide=oxide,
     )
+
+
+def warm_up(case: Case, state: ContactState) -> None:
+    """Evaluate the contact once."""
+    advance(case, state, 0.0)

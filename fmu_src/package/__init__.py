@@ -5,7 +5,6 @@
     describe    what the descriptions of both versions of FMI share
     fmi2, fmi3  modelDescription.xml of FMI 2.0 and of FMI 3.0
     usable      ranges of inputs that a scene can use
-    assumptions  what the assumptions of a scene are worth, in words
     terminals   terminalsAndIcons.xml of FMI 3.0
     compiled    sources and libraries of native FMUs, buildDescription.xml
     document    documentation/index.html

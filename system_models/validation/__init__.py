@@ -17,7 +17,7 @@
     thesis          thesis: two hours of the shipped cases
     tables          the tables in `data/`, with their licences
     terminal        outcomes as text
-    page, picture   outcomes as a web page of one file, with its pictures
+    page            outcomes as a web page of one file, with its pictures
 
 A comparison says what an answer may differ by, and why, before it is run. Where the cause of a difference is known, so
 is the range of answers that it explains: another answer is a disagreement of unknown cause.

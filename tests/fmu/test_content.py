@@ -26,7 +26,7 @@ from contact_core.shapes import GEOMETRIES
 from fmu_src.html.markup import equation
 from fmu_src.package import evidence, licences
 from fmu_src.package.build import build
-from fmu_src.package.document import measured
+from fmu_src.package.document.contact import COSTS, ERRORS
 from fmu_src.package.document.page import documentation
 from fmu_src.runtime.slave import ContactSlave
 from fmu_src.variables import variables
@@ -287,7 +287,7 @@ def test_measured_figures_are_those_of_the_sections_with_their_dates():
     assert fmu_figures.PATH.read_text("utf-8") == fmu_figures.written(Pages())
     found = documentation(Scene.from_toml("mtm_zddp").at_level("regression"), "isolated", reference=False)
     page = found.decode()
-    for table in (*measured.ERRORS["regression"], measured.COSTS["regression"]):
+    for table in (*ERRORS["regression"], COSTS["regression"]):
         assert len({len(row) for row in (table.head, *table.rows)}) == 1
         assert f"measured on {table.measured}{', of older code' if table.older else ''}" in page
 

@@ -18,7 +18,6 @@
     arrays        what a law gives for each element of an array
     rolled        loops in place of what is written out for each node of a sum
     paired        two powers in one call
-    declarations  variables begin with their first value
     passes        what is made of the statements of a C function
     interpreter   statements of Python
     functions     calls, and C functions: one for each way in which a Python function is used
