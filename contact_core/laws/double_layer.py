@@ -35,7 +35,6 @@ class NoDoubleLayer:
     acts: ClassVar[bool] = False
 
     def __call__(self, gap: Array, temperature: float) -> Array:
-        """Return ones, in the shape of the gap."""
         return np.ones_like(gap)
 
 

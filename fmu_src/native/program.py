@@ -147,7 +147,6 @@ def first_state(scene: Scene) -> ContactState:
 
 
 def inputs_of(scene: Scene) -> tuple[str, ...]:
-    """Return the names of the inputs."""
     return tuple(v.name for v in variables(scene) if v.causality == "input")
 
 

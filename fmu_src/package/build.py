@@ -162,5 +162,4 @@ def binaries(flavour: Flavour, model: str, fmi: Version = 2) -> dict[str, bytes]
 
 
 def _folder(platform: str, fmi: Version) -> str:
-    """Return the name of a platform's folder."""
     return platform if fmi == 2 else _TUPLES[platform]

@@ -102,14 +102,12 @@ def add_units(root: ET.Element, table: Iterable[Variable]) -> None:
 
 
 def add_log_categories(root: ET.Element) -> None:
-    """Add the categories of log messages."""
     categories = ET.SubElement(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():
         ET.SubElement(categories, "Category", {"name": name, "description": text})
 
 
 def add_experiment(root: ET.Element, model: Model) -> None:
-    """Add the default experiment."""
     ET.SubElement(root, "DefaultExperiment", {name: value_text(value) for name, value in model.experiment.items()})
 
 

@@ -53,7 +53,6 @@ class Line:
 
     @property
     def hollow(self) -> bool:
-        """Whether its marks are hollow."""
         return "h" in self.style
 
 

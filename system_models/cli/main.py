@@ -135,7 +135,6 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parser_of_all() -> argparse.ArgumentParser:
-    """Return the parser of all commands."""
     parser = _Parser(
         prog="tribofmu",
         description="Contacts with mixed lubrication, tribofilm and wear: run them, build FMUs of them, check and "

@@ -71,7 +71,6 @@ def name_of(path: str) -> str:
 
 
 def title(text: str) -> str:
-    """Return the title of a page."""
     return text.partition("\n")[0].removeprefix("# ").replace("`", "")
 
 

@@ -36,7 +36,6 @@ def cause(name: str, says: str = "It says") -> str:
 
 
 def callbacks() -> fmi2CallbackFunctions:
-    """Return the callback functions for an instance."""
     functions = fmi2CallbackFunctions()
     functions.logger = _LOGGER
     functions.allocateMemory = defaultCallbacks.allocateMemory

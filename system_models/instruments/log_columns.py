@@ -44,12 +44,10 @@ class Column:
         return _unit(self.quantity)
 
     def value(self, number: float) -> float:
-        """Return a number of the column in SI."""
         return units.parse(f"{number!r} {self.unit}", "" if self.si == "1" else self.si, f"'{self.header}'")
 
 
 def _unit(quantity: str) -> str:
-    """Return the unit in SI of a quantity."""
     return str(OF_RIGS[quantity]["unit"]) if quantity in OF_RIGS else TABLE[quantity].unit
 
 

@@ -35,7 +35,6 @@ class Step:
     kind: str = ""  # as the log has it, such as FILM, Traction or BOD_TIMED
 
     def has(self, quantity: str) -> bool:
-        """Return whether a quantity is in the table."""
         return any(column is not None and column.quantity == quantity for column in self.columns)
 
 

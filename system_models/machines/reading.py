@@ -81,7 +81,6 @@ def described(machine: Machine) -> dict[str, str]:
 
 
 def from_attribute(text: str) -> Machine:
-    """Return the machine of a result."""
     parts = json.loads(text)
     return Machine(**{**parts, "folder": Path(parts["folder"])})
 

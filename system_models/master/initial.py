@@ -156,7 +156,6 @@ class _Loop:
             return np.full(len(values), np.nan)
 
     def _result(self, connection: Connection) -> Any:
-        """Return the value of a connection for its source."""
         instance = self._instances[connection.source.model.name]
         with _named(instance, f"to give '{connection.source.name}'"):
             return connection.result(instance.get(connection.source.variable))

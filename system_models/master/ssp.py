@@ -179,7 +179,6 @@ def _add_parameters(component: Element, starts: list[tuple[Port, Value]], model:
 
 
 def _written(variable: ModelVariable, value: Value) -> tuple[str, str]:
-    """Return a value's type and text."""
     if variable.type == "Enumeration" and variable.declaredType is not None:
         names = {int(item.value): item.name for item in variable.declaredType.items or ()}
         return ("Enumeration", names[int(value)]) if value in names else ("Integer", repr(value))

@@ -43,7 +43,6 @@ class Timetable(Part):
         return tuple(Output(signal.name, "", signal.unit, f"signal {signal.name}") for signal in self.signals)
 
     def initial(self, inputs: Values) -> State:
-        """Return the time."""
         return (0.0,)
 
     def advance(self, state: State, inputs: Values, step: float) -> State:

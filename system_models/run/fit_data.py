@@ -41,7 +41,6 @@ class Measured:
     digest: str  # of its bytes
 
     def __len__(self) -> int:
-        """Return the number of measured numbers."""
         return len(self.value)
 
     @property

@@ -169,7 +169,6 @@ class Checkpoint:
         self._next = monotonic() + max(_PAUSE, _REST * (monotonic() - start))
 
     def remove(self) -> None:
-        """Remove what is stored."""
         # the rows last: without them the file would be damaged
         for path in (self.file, self._new, self._records.path, self._rows.path):
             path.unlink(missing_ok=True)

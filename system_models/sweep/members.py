@@ -39,7 +39,6 @@ _ANY = "range_flags"  # of members: raised by any of them
 
 
 def plan_of_members(members: Members) -> Plan:
-    """Return the plan that runs each member."""
     return Plan((Factor(MEMBER, members.names, together=members.settings),), np.empty((0, 0)), "ensemble")
 
 
@@ -54,7 +53,6 @@ def refuse_missing(members: Members, outcomes: dict[int, Outcome]) -> None:
 
 
 def attribute(members: Members) -> str:
-    """Return the members as an attribute of a result."""
     return json.dumps({"keys": members.keys, "members": members.names})
 
 

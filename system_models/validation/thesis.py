@@ -47,7 +47,6 @@ class Run:
         return np.array([getattr(outputs, name) for outputs in self.outputs])
 
     def end(self, name: str) -> float:
-        """Return the last value."""
         return float(self[name][-1])
 
 

@@ -123,7 +123,6 @@ def ceilings() -> list[tuple[Point, float]]:
 
 
 def points_of_curves() -> list[Point]:
-    """Return the points of the published curves."""
     return [Point(oil, _PRESSURE, speed, _WARM) for oil in _CURVES for speed in _SPEEDS]
 
 

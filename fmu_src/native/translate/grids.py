@@ -316,7 +316,6 @@ def aligned(shape: Shape, places: Places) -> Places:
 
 
 def broadcast(unit: Writer, grid: Grid, shape: Shape) -> Grid:
-    """Return an array broadcast to a shape."""
     base = stored(unit, grid) if isinstance(grid, Derived) and grid.costs else grid
     if isinstance(base, Stored):
         return View(shape, base, lambda places: aligned(base.shape, places))

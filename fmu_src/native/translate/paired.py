@@ -145,7 +145,6 @@ def _sets(item: _Power | _Pair | code.Let | code.Do | code.Give) -> list[str]:
 
 
 def _texts(statement: code.Let | code.Do | code.Give) -> list[str]:
-    """Return the expressions of a statement."""
     if isinstance(statement, code.Give):
         return [value for _, value in statement.members]
     return [statement.value or "" if isinstance(statement, code.Let) else statement.text]

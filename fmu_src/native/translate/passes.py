@@ -48,7 +48,6 @@ def _inside(statement: code.Statement) -> code.Statement:
 
 
 def _set(statement: code.Statement) -> set[str]:
-    """Return the variables that a statement sets."""
     if isinstance(statement, code.Put):
         return {statement.name.partition("[")[0]}
     if isinstance(statement, code.If):

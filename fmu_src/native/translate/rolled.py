@@ -196,7 +196,6 @@ class _Nodes:
         return self._of_nodes(column)
 
     def _constant(self, column: tuple[str, ...], name: str) -> str:
-        """Return the constant of a node."""
         if len(set(column)) == 1:
             return column[0]
         if column not in self.tables:

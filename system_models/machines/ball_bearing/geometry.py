@@ -127,12 +127,10 @@ class BallBearingGeometry:
 
     @cached_property
     def inner(self) -> Race:
-        """The inner race."""
         return self._race("inner", self.conformity_inner, -1.0)
 
     @cached_property
     def outer(self) -> Race:
-        """The outer race."""
         return self._race("outer", self.conformity_outer, 1.0)
 
     def race(self, name: RaceName) -> Race:

@@ -61,7 +61,6 @@ class LoadClass(NamedTuple):
 
     @property
     def name(self) -> str:
-        """Name of its contact."""
         return contact_name(self.race, self.level)
 
 
@@ -257,7 +256,6 @@ class BallBearing(Part):
         return found
 
     def _whole(self, rest: Equilibrium, speed: float) -> dict[str, float]:
-        """Return the bearing as a whole, and each ball."""
         driven, inner, outer = rest.load_inner > 0.0, self.dimensions.inner, self.dimensions.outer
         largest = float(rest.load_inner.max()), float(rest.load_outer.max())
         pressures = [pressure(race, load) for race, load in zip((inner, outer), largest, strict=True)]

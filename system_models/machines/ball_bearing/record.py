@@ -40,7 +40,6 @@ class ContactClass(NamedTuple):
 
     @property
     def contact(self) -> str:
-        """Name of its contact."""
         return contact_name(self.race, self.level)
 
 
@@ -61,7 +60,6 @@ class BearingRun:
 
     @property
     def bearing(self) -> BallBearing:
-        """The bearing."""
         part = self.assembly.parts["bearing"]
         assert isinstance(part, BallBearing)
         return part
@@ -127,7 +125,6 @@ class BearingRun:
         return values[np.maximum(np.searchsorted(times, self.time, side="left") - 1, 0)]
 
     def ring_loads(self, row: int) -> RingLoads:
-        """Return loads on the inner ring at a row."""
         names = ("force_x", "force_y", "force_z", "moment_y", "moment_z")
         return RingLoads(*(float(self.scheduled(name)[row]) for name in names))
 

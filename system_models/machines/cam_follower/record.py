@@ -24,7 +24,6 @@ class Record:
 
     @cached_property
     def cam(self) -> CamFollower:
-        """The cam as it was built."""
         cam = self.assembly.parts["cam"]
         assert isinstance(cam, CamFollower)
         return cam

@@ -58,14 +58,12 @@ class Record:
 
     @cached_property
     def mesh(self) -> GearMesh:
-        """The mesh as it was built."""
         mesh = self.assembly.parts["mesh"]
         assert isinstance(mesh, GearMesh)
         return mesh
 
     @property
     def pair(self) -> SpurGearPair:
-        """Both gears."""
         return self.mesh.pair
 
     @property
@@ -85,7 +83,6 @@ class Record:
 
     @property
     def scene(self) -> Scene:
-        """Scene of the flanks."""
         return self.assembly.contacts[flank(1)].scene
 
     @cached_property
@@ -182,5 +179,4 @@ def _changes(course: Sequence[tuple[float, Any]]) -> list[float]:
 
 
 def _held(course: Sequence[tuple[float, float | int | bool | str]], time: float) -> float:
-    """Return the value that holds at a time."""
     return float([value for start, value in course if start <= time][-1])
