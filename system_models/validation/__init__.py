@@ -1,6 +1,6 @@
 """Comparisons with measurements, published numbers, closed forms and a thesis: one verdict each, with its cause.
 
-    registry        the table of comparisons
+    registry        the comparisons of comparisons.toml, and how each is run
     model           records: comparison, row, cause, verdict
     optical_films   measured: central films from 5 mm/s to 4 m/s
     dimple          measured: a dimple that crosses a contact

@@ -8,7 +8,7 @@ import numpy as np
 from contact_core import Outputs, Scene, advance, initial_state
 from contact_core.reference import SmoothContact, ghanbarzadeh_thickness, hamrock_dowson
 
-from .model import Array, Cause, Comparison, Kind, Outcome, Row, compared, exactly
+from .model import Array, Cause, Outcome, Row, compared, exactly
 
 STEP, STEPS = 60.0, 120  # s
 LATE = 0.9  # of the largest film: established
@@ -170,13 +170,3 @@ def run() -> Outcome:
             )
         )
     return Outcome((*_case_a(a), *_case_b(b)), tuple(curves))
-
-
-COMPARISON = Comparison(
-    "Two hours of both cases of a thesis",
-    Kind.THESIS,
-    "Scenes `azam_case_a` and `mtm_zddp` on the regression level, one row a minute. Most results are printed as plots: "
-    f"shapes and orders count. All 62 claims, on the deterministic level: {PAGE}.",
-    "Azam, PhD thesis, University of Leeds 2018, chapters 5 to 7",
-    run,
-)
