@@ -21,6 +21,13 @@ from .equations import Equations
 _LIMIT_AT = 313.15  # K, temperature to which a limiting coefficient belongs
 _LIMIT = "τ_L = Λ p_f exp[β_L (T_L − T)]"
 _OF_THE_LIMIT = "Λ: limiting_coefficient; 0 means no limit."
+_SYMBOLS_OF_THE_LIMIT = {
+    "Λ": "limiting_coefficient",
+    "β_L": "limiting_fall",
+    "T": "temperature of the oil [K]",
+    "T_L": "40 degC, to which Λ belongs [K]",
+    "τ_L": "limiting shear stress [Pa]",
+}
 _EASIEST = 500.0  # at e^500 times the Newtonian shear rate a film slips: no need to overflow
 
 
@@ -86,13 +93,7 @@ class Newtonian(_Limited):
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_N,   at most τ_L", _LIMIT),
         _OF_THE_LIMIT,
-        symbols={
-            "Λ": "limiting_coefficient",
-            "β_L": "limiting_fall",
-            "T": "temperature of the oil [K]",
-            "T_L": "40 degC, to which Λ belongs [K]",
-            "τ_L": "limiting shear stress [Pa]",
-        },
+        symbols=_SYMBOLS_OF_THE_LIMIT,
         left_out=(
             "Shear thinning of the oil: thin films that slide fast rub more than they would, once the Newtonian "
             "stress exceeds some MPa."
@@ -124,14 +125,7 @@ class Eyring(_Limited):
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_E arsinh(τ_N/τ_E),   at most τ_L", _LIMIT),
         _OF_THE_LIMIT,
-        symbols={
-            "Λ": "limiting_coefficient",
-            "β_L": "limiting_fall",
-            "T": "temperature of the oil [K]",
-            "T_L": "40 degC, to which Λ belongs [K]",
-            "τ_L": "limiting shear stress [Pa]",
-            "τ_E": "eyring_stress",
-        },
+        symbols={**_SYMBOLS_OF_THE_LIMIT, "τ_E": "eyring_stress"},
     )
     thins: ClassVar[bool] = True
 
@@ -164,15 +158,7 @@ class Carreau(_Limited):
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_N [1 + (τ_N/G)^2]^{(n − 1)/2},   at most τ_L", _LIMIT),
         _OF_THE_LIMIT,
-        symbols={
-            "Λ": "limiting_coefficient",
-            "β_L": "limiting_fall",
-            "T": "temperature of the oil [K]",
-            "T_L": "40 degC, to which Λ belongs [K]",
-            "τ_L": "limiting shear stress [Pa]",
-            "G": "critical_stress",
-            "n": "exponent",
-        },
+        symbols={**_SYMBOLS_OF_THE_LIMIT, "G": "critical_stress", "n": "exponent"},
     )
     inlet_thinning: ClassVar[Equations] = Equations(
         (

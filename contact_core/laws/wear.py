@@ -13,6 +13,13 @@ from .elementary import Numbers, exp
 from .equations import Equations
 
 Speeds = tuple[float | Array, float]
+_SYMBOLS = {
+    "p_s": "mean solid pressure of a surface point over its track [Pa]",
+    "v": "speed that sliding chooses [m/s]",
+    "H": "hardness of the bare solids, plasticity.hardness [Pa]",
+    "K_{bare}": "bare",
+    "K_{film}": "film",
+}
 
 
 @dataclass(frozen=True)
@@ -106,14 +113,7 @@ class Archard(_BySliding):
         ("∂w/∂t = K p_s v/H,   K = K_{bare} + (K_{film} − K_{bare}) c",),
         "ps is the mean solid pressure on a point of the surface over its track, c the thickness of its "
         "tribofilm over the full thickness; wear.sliding chooses the speed v.",
-        symbols={
-            "p_s": "mean solid pressure of a surface point over its track [Pa]",
-            "v": "speed that sliding chooses [m/s]",
-            "H": "hardness of the bare solids, plasticity.hardness [Pa]",
-            "K_{bare}": "bare",
-            "K_{film}": "film",
-            "c": "tribofilm of the body over its full thickness, 0 to 1 [1]",
-        },
+        symbols={**_SYMBOLS, "c": "tribofilm of the body over its full thickness, 0 to 1 [1]"},
     )
 
     bare: float = _bare()
@@ -159,11 +159,7 @@ class FilmFirst(_BySliding):
         "The tribofilm wears in proportion to its cover, the solid where the film is thin. ps is the mean solid "
         "pressure on a point of the surface over its track; wear.sliding chooses the speed v.",
         symbols={
-            "p_s": "mean solid pressure of a surface point over its track [Pa]",
-            "v": "speed that sliding chooses [m/s]",
-            "H": "hardness of the bare solids, plasticity.hardness [Pa]",
-            "K_{bare}": "bare",
-            "K_{film}": "film",
+            **_SYMBOLS,
             "h_s": "thin",
             "H_{film}": "hardness of the full tribofilm, plasticity.film_hardness [Pa]",
             "h_{max}": "full thickness of the tribofilm, tribofilm.full_thickness [m]",

@@ -30,6 +30,13 @@ from .relaxation import formed
 Temperature = float | Array
 
 _COLDEST, _HOTTEST = 333.15, 393.15  # K, bulk: about the range of tests on rigs; assumed
+_SYMBOLS = {
+    "h_{max}": "full_thickness",
+    "A": "prefactor",
+    "E_0": "activation_energy",
+    "ΔV": "activation_volume",
+    "k_r": "removal_coefficient",
+}
 _POISSON = 0.3  # of the solids, for the shape of the surface tension
 
 
@@ -181,13 +188,7 @@ class ZhangSpikes(_ByOneStress):
         "τ is the shear stress of oil and solids: a full film grows a tribofilm, too. Stress lowers the barrier to "
         "zero at most.",
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
-        symbols={
-            "h_{max}": "full_thickness",
-            "A": "prefactor",
-            "E_0": "activation_energy",
-            "ΔV": "activation_volume",
-            "k_r": "removal_coefficient",
-        },
+        symbols=_SYMBOLS,
     )
 
     least_shear: float = _least_shear()
@@ -222,13 +223,7 @@ class Gosvami(_ByOneStress):
         ),
         "The normal stress drives the growth where solids touch. It lowers the barrier to zero at most.",
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
-        symbols={
-            "h_{max}": "full_thickness",
-            "A": "prefactor",
-            "E_0": "activation_energy",
-            "ΔV": "activation_volume",
-            "k_r": "removal_coefficient",
-        },
+        symbols=_SYMBOLS,
     )
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
@@ -261,11 +256,7 @@ class Combined(_Activated):
         "c is 1 where solids rub, else 0. Stress lowers the barrier to zero at most.",
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
         symbols={
-            "h_{max}": "full_thickness",
-            "A": "prefactor",
-            "E_0": "activation_energy",
-            "ΔV": "activation_volume",
-            "k_r": "removal_coefficient",
+            **_SYMBOLS,
             "w_1": "contact_weight",
             "w_2": "stress_weight",
             "x": "rate_factor",
