@@ -25,3 +25,5 @@ from ..fmu.errors import CouplingError
 from .simulate import simulate
 from .ssp import export_ssp
 from .system import Connection, System
+
+__all__ = ["Connection", "CouplingError", "System", "export_ssp", "simulate"]

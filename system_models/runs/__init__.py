@@ -14,3 +14,5 @@ from .contact import run_contact
 from .job import Finished
 from .listener import Listener
 from .machine import run_machine
+
+__all__ = ["Finished", "Listener", "run_contact", "run_machine"]
