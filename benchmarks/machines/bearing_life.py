@@ -65,9 +65,8 @@ def passing(
         if below is None:
             found = np.zeros((keep, depths.size, pressure.shape[0]))
             below = Subsurface((pressure.shape[0], pressure.shape[1]), spacing, depths, poisson, "pyfftw")
-        entered = moved - np.arange(
-            pressure.shape[1]
-        )  # way of the body when what is at each node now came to the first
+        # way of the body when what is at each node now came to the first
+        entered = moved - np.arange(pressure.shape[1])
         here = (entered >= 1) & (entered <= keep)
         for k, layer in enumerate(below.layers(pressure, shear)):
             rows = entered[here] - 1

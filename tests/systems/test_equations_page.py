@@ -6,19 +6,19 @@ from pathlib import Path
 import pytest
 from matplotlib.mathtext import MathTextParser
 
-from benchmarks.house.equations import page
-from benchmarks.house.latex import latex
 from contact_core.film import FILMS
 from contact_core.laws import SLOTS
 from contact_core.laws.symbols import common
 from contact_core.shapes import GEOMETRIES
+from docs._extensions.equations import page
+from docs._extensions.latex import latex
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = (DOCS / "equations.md").read_text("utf-8")
 
 
 def test_the_page_is_what_the_laws_say_today():
-    assert page() == PAGE, "python -m benchmarks.house.equations > docs/equations.md"
+    assert page() == PAGE, "python -m docs._extensions.equations > docs/equations.md"
 
 
 def test_the_page_has_every_law_level_and_shape():
