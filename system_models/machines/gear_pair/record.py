@@ -8,14 +8,13 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from contact_core.laws.viscosity import kinematic_viscosity
 from contact_core.reference import hertz_line
 from contact_core.scene import Scene
 
-from ..assembly import Assembly
+from ..report import Recorded
 from .geometry import FZG_A, FZG_C, SpurGearPair, load_stages
 from .mesh import GearMesh, flank
 from .path import Array, steps
@@ -50,11 +49,8 @@ class Textbook(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Record:
+class Record(Recorded):
     """A run of the machine that `gear_pair.assemble` makes."""
-
-    assembly: Assembly
-    dataset: xr.Dataset
 
     @cached_property
     def mesh(self) -> GearMesh:
@@ -65,11 +61,6 @@ class Record:
     @property
     def pair(self) -> SpurGearPair:
         return self.mesh.pair
-
-    @property
-    def time(self) -> Array:
-        """Times of the rows [s]."""
-        return np.asarray(self.dataset["time"].values)
 
     @cached_property
     def positions(self) -> Array:
@@ -90,10 +81,6 @@ class Record:
         """Stations between the points where pairs of teeth come or go."""
         jumps = [edge for edge in steps(self.pair)[1:-1] if edge != self.pair.pitch_point]
         return np.split(np.arange(self.mesh.stations), np.searchsorted(self.positions, jumps))
-
-    def of(self, name: str) -> Array:
-        """Return a variable "component.output" by row."""
-        return np.asarray(self.dataset.variables[name].values)
 
     def along(self, quantity: str) -> Array:
         """Return a quantity of the contacts by row and station."""
