@@ -13,6 +13,7 @@ import zlib
 from dataclasses import replace
 from importlib import metadata
 from pathlib import Path
+from string import Template
 from typing import Any
 
 import pythonfmu
@@ -31,27 +32,13 @@ MODEL = "MixedContact"
 VERSIONS = {"contact_core": contact_core.__version__, "pythonfmu": pythonfmu.__version__}
 
 # The binary runs the file twice and takes the deepest subclass of Fmi2Slave among its names: define one only.
-_SCRIPT = '''"""The slave that the FMU's library loads."""
-
-from {package} import {module}
-
-# Each instantiation, pythonfmu 0.7 drops one reference too many to this module's names: add one.
-globals().setdefault("_references", []).append(globals())
-
-
-if "{model}" in globals():
-    {model} = globals()["{model}"]  # one class for all instances: classes are never freed
-else:
-
-    class {model}({module}.{name}):
-        """{text}"""
-'''
+_SCRIPT = Template(Path(__file__).with_name("slave.py.in").read_text("ascii"))
 
 
 def script(model: str, slave: str, text: str) -> bytes:
     """Return the script that defines the slave: the class `model`, derived from `slave` (package.module.Class)."""
     package, module, name = slave.rsplit(".", 2)
-    return _SCRIPT.format(model=model, package=package, module=module, name=name, text=text).encode()
+    return _SCRIPT.substitute(model=model, package=package, module=module, name=name, text=text).encode()
 
 
 def guid(scene: Scene, flavour: Flavour, version: Version = 2) -> str:
