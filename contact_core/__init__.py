@@ -19,13 +19,14 @@ and a correction may move the estimate. Where to find what:
                      bulk temperature, tribofilm, wear, oxide, stress, fatigue, scuffing, load sharing, profiles: one
                      class per law
     kernels/         numba and FFT: arrays in, arrays out
-    reference/       closed forms: Hertz and stress below, films of points and lines, starvation, heat, wear
+    reference/       closed forms: Hertz, films of points and lines, starvation, rolling, heat, tribofilm
     quantities       names, symbols, units, signs and ranges of every input and output
     entry_points     what other installed packages offer
     errors of answers  of calls film/estimate.py; of marches deterministic/solution_error.py by film/grid_error.py and
                      state/trends.py; of the regression level regression/outputs.py
     progress         what a long step is doing, for those who wait
     errors           what can go wrong, each message with a way out
+    arrays           types of arrays
     data/            named oils, solids and tribofilms, and the shipped scenes
 
 Imports run one way: errors, progress, quantities <- kernels <- entry_points, reference <- laws <- shapes <- film <-

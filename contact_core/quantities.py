@@ -1,7 +1,6 @@
-"""The table of inputs and outputs of a contact: name, symbol, unit, text, range.
+"""The table of inputs and outputs of a contact: name, symbol, unit, text, range, conventions of sign and averaging.
 
-It feeds the FMU's variables, the result files' attributes, the printed tables and the checks. Conventions of sign,
-averaging and direction are stated here, once. `parameter` does the same for the fields of a scene.
+FMUs, result files, tables and checks read it. `parameter` does the same for the fields of a scene.
 """
 
 import math

@@ -33,7 +33,7 @@ BEFORE = re.compile(r"^(?:Of|In|After) ")
 
 def citations(text: str) -> Iterator[tuple[str, str]]:
     """Yield the DOIs of a text, each with what names its source, or nothing."""
-    plain = re.sub(r'"?[ \t]*\n\s*(?:# ?|f?")?', " ", text)
+    plain = re.sub(r'"?[ \t]*\\?\n\s*(?:# ?|f?")?', " ", text)
     plain = re.sub(r" +", " ", plain)
     for match in DOI.finditer(plain):
         doi = match[1]

@@ -5,7 +5,7 @@ python -m benchmarks.machines.bearing_life
 
 import math
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -45,6 +45,34 @@ FRICTION = (0.02, 0.05, 0.1, 0.15, 0.2, 0.3)
 # 6 balls of 11.1 mm on 43.5 mm, C = 23.4 kN, 1 kN radial, published with the program github.com/minzhun/ISO16281:
 # diametral clearance [m], life [million revolutions]
 PUBLISHED = ((0.0, 12008.9256), (10e-6, 9323.8946))
+
+
+def passing(
+    instants: Iterable[tuple[Array, Array, int]], spacing: float, depths: Array, poisson: float, keep: int
+) -> Array:
+    """Return the largest von Mises stress [keep, nz, ny] of columns of material that pass under solved instants [Pa].
+
+    Parameters
+    ----------
+    instants : pressure and shear stress along x on the body [ny, nx], in Pa, and the nodes by which it has moved on
+        along +x since the first; no body moves by more than a node from one to the next.
+    spacing, depths : of the nodes, and [nz] below the surface, in m.
+    keep : columns, from the first on that enters the grid after the first instant. They have all left it when the body
+        has moved by `keep` and the grid's columns.
+
+    """
+    found, below = np.zeros(0), None
+    for pressure, shear, moved in instants:
+        if below is None:
+            found = np.zeros((keep, depths.size, pressure.shape[0]))
+            below = Subsurface((pressure.shape[0], pressure.shape[1]), spacing, depths, poisson, "pyfftw")
+        # way of the body when what is at each node now came to the first
+        entered = moved - np.arange(pressure.shape[1])
+        here = (entered >= 1) & (entered <= keep)
+        for k, layer in enumerate(below.layers(pressure, shear)):
+            rows = entered[here] - 1
+            found[rows, k] = np.maximum(found[rows, k], von_mises(layer)[:, here].T)
+    return found
 
 
 class Stressed(NamedTuple):
@@ -134,7 +162,7 @@ def passed(name: str, scene: Scene, point: OperatingPoint, state: ContactState) 
         force = float((grid.fluid_shear + grid.solid_shear).sum()) * spacing**2
         ratio, friction, pressure = math.inf, abs(force) / point.load, float(grid.pressure.max())
     else:
-        stress = life.passing(instants(), spacing, depths, BEARING_209.poisson, KEEP)
+        stress = passing(instants(), spacing, depths, BEARING_209.poisson, KEEP)
         rough = math.hypot(scene.surface_1.rms, scene.surface_2.rms)
         ratio, friction = (float(np.mean(seen[key])) for key in ("h_c", "friction"))
         ratio, pressure = ratio / rough, max(seen["pressure"])

@@ -15,12 +15,12 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from benchmarks.pages import Page
+from benchmarks.stress.closed_forms import circle_stress, ellipse_axis_stress, line_stress
 from benchmarks.timing import timed
 from contact_core import dry_contact, graded_depths, subsurface_stress
 from contact_core.kernels.half_space import HalfSpace
 from contact_core.kernels.subsurface import Subsurface
 from contact_core.reference import hertz_point
-from contact_core.reference.stresses import circle_stress, ellipse_axis_stress, line_stress
 
 Array = NDArray[np.float64]
 

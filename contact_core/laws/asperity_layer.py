@@ -1,9 +1,7 @@
 """Asperities that are too short for any grid: mean pressure, gap and real area of contact.
 
-Their height is that of the room which the touching surfaces leave, volume per area: the distance of the mean planes of
-the deformed surfaces, zero in full contact. Form and constants follow from dry contacts of periodic, self-affine
-roughness (Hurst exponent 0.8, waves over a factor of 4 to 16 in length): `surfaces.asperity_layer` of the benchmarks of
-revision 869ed0dc.
+Form and constants follow from dry contacts of periodic, self-affine roughness (Hurst exponent 0.8, waves over a factor
+of 4 to 16 in length): `surfaces.asperity_layer` of the benchmarks of revision 869ed0dc.
 """
 
 from dataclasses import dataclass
@@ -58,7 +56,6 @@ class AsperityLayer:
 
     @property
     def error(self) -> str:
-        """Sentence on constants that contradict each other, or an empty text."""
         if self.slope <= STEEPEST:
             return ""
         return (

@@ -39,7 +39,6 @@ class FilmBlend:
     )
 
     def coefficient(self, cover: Array) -> Array:
-        """Return the friction coefficient of sliding solids under tribofilms of a mean cover, 0 to 1."""
         return self.bare + (self.film - self.bare) * cover
 
     def __call__(self, solid_pressure: Array, cover: Array, sliding_speed: Array | float) -> Array:
@@ -50,15 +49,12 @@ class FilmBlend:
         return self.coefficient(cover) * solid_pressure * self.grip(sliding_speed)
 
     def grip(self, sliding_speed: Array | float) -> Array:
-        """Return the share of full friction at a sliding speed [m/s], with its sign."""
         return tanh(sliding_speed / self.slip_speed)
 
     def grip_slope(self, sliding_speed: Array | float) -> Array:
-        """Return the derivative of `grip` by the sliding speed [s/m]."""
         return (1.0 - self.grip(sliding_speed) ** 2) / self.slip_speed
 
     def slope(self, solid_pressure: Array, cover: Array, sliding_speed: Array | float) -> Array:
-        """Return the derivative of the shear stress by the sliding speed [Pa s/m]."""
         return self.coefficient(cover) * solid_pressure * self.grip_slope(sliding_speed)
 
 

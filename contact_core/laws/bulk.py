@@ -57,7 +57,6 @@ class InputBulk:
     )
 
     def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
-        """Return the bulk temperatures (T_1, T_2) [K] for an oil temperature and inputs [K]."""
         first, second = inputs
         return oil if first is None else first, oil if second is None else second
 

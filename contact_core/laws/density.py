@@ -21,7 +21,6 @@ class DowsonHigginson:
     )
 
     def __call__(self, pressure: Array) -> Array:
-        """Return the density ratio at pressures [Pa] (any shape)."""
         return (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
 
 

@@ -35,7 +35,6 @@ class NoDoubleLayer:
     acts: ClassVar[bool] = False
 
     def __call__(self, gap: Array, temperature: float) -> Array:
-        """Return ones, in the shape of the gap."""
         return np.ones_like(gap)
 
 
@@ -84,7 +83,6 @@ class Electroviscous:
         return 6.0 * math.pi * self.ion_radius * permittivity * zeta**2 / (BOLTZMANN * temperature)
 
     def __call__(self, gap: Array, temperature: float) -> Array:
-        """Return the apparent viscosity over that without charges, 1 or more, at gaps [m] and a temperature [K]."""
         k = np.asarray(gap) / (2.0 * self.debye_length)
         z = self.strength(temperature)
         tanh, square = np.tanh(k), k * k

@@ -2,7 +2,7 @@
 
 Notation: Unicode; `_` and `^` start an index or exponent of one character, or of several in braces: `h_c`, `x^{1/2}`.
 Equations that share a line stand three spaces apart. `fmu_src.package.document.markup` turns a line into HTML,
-`system_models.explain.latex` into LaTeX.
+the page of equations into LaTeX.
 """
 
 from collections.abc import Mapping

@@ -187,7 +187,6 @@ class _Conductors:
     def strip_conductances(
         self, a: Array, b: float, speeds: tuple[Array, Array], *, hottest: bool = False
     ) -> tuple[Array, Array]:
-        """Return the `conductances` of a source on a strip of half width a and half length b [m]."""
         source = _STRIP_HOTTEST if hottest else _STRIP_EVEN
         first, second = (
             _strip_conductance(a, b, np.hypot(speed, _CREEP * 2.0 * diffusivity / a), conductivity, diffusivity, source)
@@ -241,7 +240,6 @@ class FlashTemperature(_Conductors):
     warms_film: ClassVar[bool] = False
 
     def spot_rise(self, radius: Numbers, shear: Numbers, sliding_speed: Numbers) -> Numbers:
-        """Return the flash temperature rise [K] of spots of `radius` [m] under a mean |shear stress| [Pa]."""
         into_1, into_2 = self._conduction(radius, sliding_speed)
         return abs(shear * sliding_speed) / (into_1 + into_2)
 

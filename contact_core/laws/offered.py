@@ -1,10 +1,6 @@
-"""Laws that other installed packages offer.
+"""Laws that other installed packages offer, by entry points of the group `tribofmu.laws.` and the slot.
 
-A package offers a law by an entry point: its group is `tribofmu.laws.` and the slot, its name that of the law, its
-value the class, such as
-
-    [project.entry-points."tribofmu.laws.viscosity"]
-    mcewen = "my_oil:McEwen"
+Name: that of the law; value: its class, such as mcewen = "my_oil:McEwen" in the group tribofmu.laws.viscosity.
 """
 
 from dataclasses import fields, is_dataclass
@@ -17,25 +13,6 @@ from . import SLOTS, base
 from .base import Law
 
 _GROUP = "tribofmu.laws."
-PROTOCOLS: dict[str, type] = {  # what a law of a slot must have; of load sharing only what all laws have
-    "viscosity": base.Viscosity,
-    "density": base.Density,
-    "rheology": base.Rheology,
-    "supply": base.Supply,
-    "double_layer": base.DoubleLayer,
-    "plasticity": base.Plasticity,
-    "boundary_friction": base.BoundaryFriction,
-    "heat": base.Heat,
-    "bulk": base.Bulk,
-    "tribofilm": base.Tribofilm,
-    "wear": base.Wear,
-    "oxide": base.Oxide,
-    "stress": base.Stress,
-    "fatigue": base.Fatigue,
-    "scuffing": base.Scuffing,
-    "sharing": base.Law,
-    "profile": base.Profile,
-}
 
 
 def laws_of(slot: str) -> tuple[type[Law], ...]:
@@ -60,6 +37,12 @@ def of_others() -> dict[str, tuple[type[Law], ...]]:
     return found
 
 
+def _protocol(slot: str) -> type:
+    """Return what a law of a slot must have: the Protocol of its name, of load sharing only what all laws have."""
+    found: type = getattr(base, slot.title().replace("_", ""), Law)
+    return found
+
+
 def _known() -> str:
     return ", ".join(f"{_GROUP}{slot}" for slot in SLOTS)
 
@@ -72,7 +55,7 @@ def _check(slot: str, name: str, law: Any) -> None:
     if missing := lacking(slot, law):
         raise SceneError(
             f"{place} has no {', '.join(missing)}. contact_core/laws/base.py says what each is: "
-            f"{PROTOCOLS[slot].__name__}."
+            f"{_protocol(slot).__name__}."
         )
     if law.name != name:  # type: ignore[attr-defined]
         raise SceneError(f"{place} calls itself '{law.name}'. Give both the same name.")  # type: ignore[attr-defined]
@@ -84,7 +67,7 @@ def lacking(slot: str, law: type) -> list[str]:
     """Return the attributes and methods that a law of the slot must have and this class has not."""
     asked = {
         name
-        for part in PROTOCOLS[slot].__mro__
+        for part in _protocol(slot).__mro__
         if part.__module__ == base.__name__
         for name in (*vars(part), *vars(part).get("__annotations__", {}))
         if not name.startswith("_") or name == "__call__"

@@ -120,19 +120,15 @@ class Logarithmic:
     )
 
     def growth(self, temperature: float) -> float:
-        """Return the rate A [m/s] at which a bare solid oxidises at a temperature [K]."""
         return self.prefactor * math.exp(-self.activation_energy / (BOLTZMANN * temperature))
 
     def removal(self, pressure: Numbers, sliding_speed: Numbers) -> Numbers:
-        """Return the rate K p v / H [m/s] at which rubbing takes oxide under a solid pressure [Pa]."""
         return self.wear * pressure * abs(sliding_speed) / self.hardness
 
     def left_open(self, film: Numbers) -> Numbers:
-        """Return the share of a solid that a tribofilm [m] leaves to oxidation and rubbing, 0 to 1."""
         return exp(-film / self.thin)
 
     def cover(self, oxide: Numbers) -> Numbers:
-        """Return the share of the open solid that an oxide [m] bears, 0 to 1."""
         return minimum(oxide / self.closed, 1.0)
 
     def added_friction(self, bare: float, oxides: Numbers, films: Numbers) -> Numbers:

@@ -63,7 +63,6 @@ class ElasticPerfectlyPlastic:
 
     @property
     def error(self) -> str:
-        """Sentence on constants that contradict each other, or an empty text."""
         if self.film_hardness <= self.hardness:
             return ""
         return (
@@ -73,7 +72,6 @@ class ElasticPerfectlyPlastic:
 
     @property
     def remembers(self) -> bool:
-        """True if the depth of instants before counts."""
         return self.indentation in ("total", "iterated_total")
 
     @property
@@ -116,7 +114,6 @@ class ElasticPerfectlyPlastic:
         return first, overlap - first
 
     def under(self, cover: Any) -> Any:
-        """Return the hardness [Pa] under a film of `cover` (0 to 1) of its full thickness."""
         return self.hardness - (self.hardness - self.film_hardness) * cover
 
 

@@ -33,7 +33,6 @@ class Rounded:
     radius: float = parameter("m", "radius along the axis beyond the straight part", above=0.0, most=1e4)
 
     def drop(self, y: Array, length: float) -> Array:
-        """Return the material taken away [m] at y [m] from the middle of a face [m]; inf beyond its ends."""
         return rounded_drop(y, length, self.straight, self.radius)
 
 
@@ -56,7 +55,6 @@ class Logarithmic:
     depth: float = parameter("m", "factor on ln[1 / (1 - (2 y / length)^2)]", above=0.0, most=1e-3)
 
     def drop(self, y: Array, length: float) -> Array:
-        """Return the material taken away [m] at y [m] from the middle of a face [m]; inf beyond its ends."""
         return logarithmic_drop(y, length, self.depth)
 
 
@@ -85,7 +83,6 @@ class Measured:
     ends: float = parameter("m", "depth of both ends, before their chamfers", above=0.0, most=1e-3, default=11.3e-6)
 
     def drop(self, y: Array, length: float) -> Array:
-        """Return the material taken away [m] at y [m] from the middle of a face [m]; inf beyond its ends."""
         return logarithmic_drop(y, length, self.ends / np.log(2.0), crowned=0.68, end_drop=self.ends)
 
 

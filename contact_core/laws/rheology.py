@@ -21,6 +21,13 @@ from .equations import Equations
 _LIMIT_AT = 313.15  # K, temperature to which a limiting coefficient belongs
 _LIMIT = "τ_L = Λ p_f exp[β_L (T_L − T)]"
 _OF_THE_LIMIT = "Λ: limiting_coefficient; 0 means no limit."
+_SYMBOLS_OF_THE_LIMIT = {
+    "Λ": "limiting_coefficient",
+    "β_L": "limiting_fall",
+    "T": "temperature of the oil [K]",
+    "T_L": "40 degC, to which Λ belongs [K]",
+    "τ_L": "limiting shear stress [Pa]",
+}
 _EASIEST = 500.0  # at e^500 times the Newtonian shear rate a film slips: no need to overflow
 
 
@@ -63,15 +70,12 @@ class _Limited(ABC):
         return np.copysign(stress, newtonian)
 
     def limiting_left(self, temperature: Numbers) -> Numbers:
-        """Return the limiting stress at temperatures [K] over that at 40 degC."""
         return 1.0 if self.limiting_fall == 0.0 else exp(self.limiting_fall * (_LIMIT_AT - temperature))
 
     def film_factor(self, newtonian_film: float, speed: float, viscosity: float, slide_roll_ratio: float) -> float:
-        """Return the central film thickness over that of a Newtonian oil [m]: 1, no formula is known."""
         return 1.0
 
     def slopes(self, newtonian: Array, pressure: Array) -> tuple[Array, Array]:
-        """Return the derivatives of the stress by `newtonian` and by pressure (at fixed `newtonian`)."""
         size = np.abs(newtonian)
         slope = self._slope(size)
         if self.limiting_coefficient == 0.0:
@@ -89,13 +93,7 @@ class Newtonian(_Limited):
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_N,   at most τ_L", _LIMIT),
         _OF_THE_LIMIT,
-        symbols={
-            "Λ": "limiting_coefficient",
-            "β_L": "limiting_fall",
-            "T": "temperature of the oil [K]",
-            "T_L": "40 degC, to which Λ belongs [K]",
-            "τ_L": "limiting shear stress [Pa]",
-        },
+        symbols=_SYMBOLS_OF_THE_LIMIT,
         left_out=(
             "Shear thinning of the oil: thin films that slide fast rub more than they would, once the Newtonian "
             "stress exceeds some MPa."
@@ -113,7 +111,6 @@ class Newtonian(_Limited):
         return np.ones_like(newtonian)
 
     def ease(self, stress: Array) -> Array:
-        """Return the shear rate at a stress [Pa] over that of a Newtonian oil: 1."""
         return np.ones_like(stress)
 
 
@@ -128,14 +125,7 @@ class Eyring(_Limited):
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_E arsinh(τ_N/τ_E),   at most τ_L", _LIMIT),
         _OF_THE_LIMIT,
-        symbols={
-            "Λ": "limiting_coefficient",
-            "β_L": "limiting_fall",
-            "T": "temperature of the oil [K]",
-            "T_L": "40 degC, to which Λ belongs [K]",
-            "τ_L": "limiting shear stress [Pa]",
-            "τ_E": "eyring_stress",
-        },
+        symbols={**_SYMBOLS_OF_THE_LIMIT, "τ_E": "eyring_stress"},
     )
     thins: ClassVar[bool] = True
 
@@ -152,7 +142,6 @@ class Eyring(_Limited):
         return 1.0 / np.hypot(1.0, newtonian / self.eyring_stress)
 
     def ease(self, stress: Array) -> Array:
-        """Return the shear rate at a stress [Pa] over that of a Newtonian oil."""
         x = np.minimum(np.abs(stress) / self.eyring_stress, _EASIEST)
         return np.where(x > 1e-4, np.sinh(x) / np.maximum(x, 1e-300), 1.0 + x * x / 6.0)
 
@@ -169,15 +158,7 @@ class Carreau(_Limited):
     equations: ClassVar[Equations] = Equations(
         ("τ_{oil} = τ_N [1 + (τ_N/G)^2]^{(n − 1)/2},   at most τ_L", _LIMIT),
         _OF_THE_LIMIT,
-        symbols={
-            "Λ": "limiting_coefficient",
-            "β_L": "limiting_fall",
-            "T": "temperature of the oil [K]",
-            "T_L": "40 degC, to which Λ belongs [K]",
-            "τ_L": "limiting shear stress [Pa]",
-            "G": "critical_stress",
-            "n": "exponent",
-        },
+        symbols={**_SYMBOLS_OF_THE_LIMIT, "G": "critical_stress", "n": "exponent"},
     )
     inlet_thinning: ClassVar[Equations] = Equations(
         (

@@ -137,7 +137,6 @@ class HalfSpace:
 
     @property
     def error(self) -> str:
-        """Sentence on limits that contradict each other, or an empty text."""
         ratio = self.bending_limit / self.torsion_limit
         if _BOUNDS[0] <= ratio <= _BOUNDS[1]:
             return ""
@@ -148,21 +147,17 @@ class HalfSpace:
 
     @property
     def opens_pits(self) -> bool:
-        """True if what breaks out changes the surface."""
         return self.pits == "open"
 
     @property
     def dang_van_slope(self) -> float:
-        """Weight of the hydrostatic stress in Dang Van's criterion."""
         return 3.0 * (self.torsion_limit / self.bending_limit - 0.5)
 
     @property
     def crossland_slope(self) -> float:
-        """Weight of the hydrostatic stress in Crossland's criterion."""
         return 3.0 * self.torsion_limit / self.bending_limit - 3.0**0.5
 
     def depths(self, spacing: float, half_width: float) -> Array:
-        """Return the depths of the layers [m], graded, on a grid of a spacing [m] under a half width [m]."""
         from ..kernels.subsurface import graded  # loads the compiler
 
         return graded(_FIRST * spacing, self.deepest * half_width, self.layers)

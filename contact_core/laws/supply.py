@@ -27,7 +27,6 @@ class Flooded:
     inlet: ClassVar[None] = None
 
     def film(self, flooded: float, half_width: float, radius: float, resistance: float) -> float:
-        """Return the central film thickness [m] of smooth bodies: the flooded one."""
         return flooded
 
     def reach(self, half_width: float, radius: float) -> float:
@@ -56,11 +55,9 @@ class SupplyFilm:
 
     @property
     def layer(self) -> float:
-        """Oil on both surfaces together before the contact [m]."""
         return self.thickness
 
     def film(self, flooded: float, half_width: float, radius: float, resistance: float) -> float:
-        """Return the central film thickness [m] of smooth bodies, from that of a flooded contact [m]."""
         return supplied_film(flooded, self.thickness, resistance=resistance)
 
     def reach(self, half_width: float, radius: float) -> float:
@@ -92,11 +89,9 @@ class Meniscus:
 
     @property
     def inlet(self) -> float:
-        """Distance of the inlet meniscus before the centre [m]."""
         return self.distance
 
     def film(self, flooded: float, half_width: float, radius: float, resistance: float) -> float:
-        """Return the central film thickness [m] of smooth bodies, from that of a flooded contact [m]."""
         return film_behind_meniscus(flooded, self.distance, half_width, radius)
 
     def reach(self, half_width: float, radius: float) -> float:

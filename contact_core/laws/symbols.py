@@ -1,12 +1,14 @@
 """Symbols of the equations: those that all laws share, and what each symbol of an equation stands for.
 
-A law names its own symbols in `Equations.symbols`, with a field of the law or with a text and a unit. What stands alone
-left of a sign, as `k` in "k = x k_B T/h_P", is defined by the equation itself.
+A law has its own in `Equations.symbols`. What stands alone left of a sign is defined by the equation itself.
 """
 
 import re
+import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import fields
+from functools import lru_cache
+from importlib.resources import files
 from typing import Any, NamedTuple
 
 from .equations import Equations
@@ -21,66 +23,6 @@ class Symbol(NamedTuple):
     field: str = ""  # of the law, whose value it is
 
 
-# symbol: unit, text
-COMMON: dict[str, tuple[str, str]] = {
-    "x": ("m", "coordinate along entrainment, from the centre of the contact"),
-    "y": ("m", "coordinate across entrainment"),
-    "x′": ("m", "coordinate of the pressure that deforms"),
-    "y′": ("m", "coordinate of the pressure that deforms"),
-    "t": ("s", "time"),
-    "p": ("Pa", "pressure, of oil and solids together"),
-    "p_f": ("Pa", "pressure of the oil"),
-    "p_s": ("Pa", "pressure of the solids"),
-    "p_H": ("Pa", "largest pressure of Hertz's contact"),
-    "a": ("m", "half width of Hertz's contact along x"),
-    "b": ("m", "half width of Hertz's contact along y"),
-    "h": ("m", "film thickness, the local gap"),
-    "h_c": ("m", "central film thickness"),
-    "h_s": ("m", "central film thickness of the smooth bodies, by formula"),
-    "h_0": ("m", "rigid gap"),
-    "h_{floor}": ("m", "gap at which solids touch, film.floor"),
-    "g": ("m", "gap of the undeformed bodies"),
-    "z_1": ("m", "heights of body 1"),
-    "z_2": ("m", "heights of body 2"),
-    "d": ("m", "elastic deformation"),
-    "θ": ("", "share of the gap that oil fills"),
-    "R_x": ("m", "combined radius of curvature along x"),
-    "R_y": ("m", "combined radius of curvature along y"),
-    "E′": ("Pa", "reduced modulus"),
-    "W": ("N", "load"),
-    "σ": ("m", "composite rms roughness"),
-    "u_1": ("m/s", "surface speed of body 1"),
-    "u_2": ("m/s", "surface speed of body 2"),
-    "u_e": ("m/s", "entrainment speed"),
-    "v": ("m/s", "sliding velocity of body 1 over body 2"),
-    "v_x": ("m/s", "sliding velocity along x"),
-    "ω": ("rad/s", "spin"),
-    "η": ("Pa s", "viscosity"),
-    "η_0": ("Pa s", "viscosity at p = 0"),
-    "ρ": ("kg/m3", "density"),
-    "ρ_0": ("kg/m3", "density at p = 0"),
-    "τ": ("Pa", "shear stress"),
-    "τ_N": ("Pa", "shear stress of a Newtonian oil, η |v|/h"),
-    "τ_{oil}": ("Pa", "shear stress of the oil"),
-    "τ_{solid}": ("Pa", "shear stress where solids touch"),
-    "T": ("K", "temperature"),
-    "T_{oil}": ("K", "temperature of the oil"),
-    "T_{bulk}": ("K", "bulk temperature of the body"),
-    "T_{bulk,i}": ("K", "bulk temperature of body i"),
-    "μ": ("", "friction coefficient of solids"),
-    "F": ("N", "friction force on body 1"),
-    "F_r": ("N", "rolling resistance"),
-    "P": ("W", "power loss"),
-    "q": ("W/m2", "heat per area"),
-    "W_c": ("", "share of the load that solids carry"),
-    "A_c": ("", "real contact area over Hertz's area"),
-    "h_t": ("m", "thickness of the tribofilm"),
-    "w": ("m", "wear depth"),
-    "k_B": ("J/K", "Boltzmann's constant, 1.380649e-23"),
-    "h_P": ("J s", "Planck's constant, 6.62607015e-34"),
-    "σ_h": ("Pa", "hydrostatic stress, tension positive"),
-}
-
 UNEXPLAINED = "not explained by the law"
 
 _SYMBOL = re.compile(r"[^\W\d_]+[\u0300-\u036f′]*(?:_(?:\{[^{}]*\}|[\w∞]))?")
@@ -89,6 +31,13 @@ _WORD = re.compile(r"[a-z]{2,}′?(?:_t|_\{10\})?")  # functions, differentials 
 _NUMBERS = frozenset({"π", "Σ", "Σ_{k}"})
 _DEFINED = re.compile(rf"({_SYMBOL.pattern})(?:\([^()]*\))? [=∝] ")
 BESIDE = ",   "  # between the equations of one line
+
+
+@lru_cache(maxsize=1)
+def common() -> dict[str, tuple[str, str]]:
+    """Return unit and text of the symbols that all laws share."""
+    text = (files("contact_core") / "data" / "symbols.toml").read_text("utf-8")
+    return {symbol: (unit, text) for symbol, (unit, text) in tomllib.loads(text).items()}
 
 
 def in_lines(lines: Sequence[str]) -> Iterator[str]:
@@ -117,8 +66,8 @@ def explained(equations: Equations, law: Any) -> list[Symbol]:
         elif said is not None:
             text, _, unit = said.rpartition(" [")
             found.append(Symbol(symbol, "" if unit == "1]" else unit.rstrip("]"), text))
-        elif symbol in COMMON:
-            found.append(Symbol(symbol, *COMMON[symbol]))
+        elif symbol in common():
+            found.append(Symbol(symbol, *common()[symbol]))
         elif symbol not in defined(equations.lines):
             found.append(Symbol(symbol, "", UNEXPLAINED))
     return found

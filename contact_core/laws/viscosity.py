@@ -79,7 +79,6 @@ class Roelands:
         )
 
     def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
-        """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         scale, z, s0 = self._constants
         exponent = scale * (temperature - 138.0) ** -s0 * (pressure + _P0) ** z
         return exp(minimum(_LN_ETA_INF + exponent, _STIFF))
@@ -122,7 +121,6 @@ class Barus:
     temperature_coefficient: float = parameter("K^-1", "-d ln(eta)/dT", least=0.0, most=0.2)
 
     def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
-        """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         exponent = self.pressure_coefficient * pressure
         exponent = exponent - self.temperature_coefficient * (temperature - self.reference_temperature)
         return self.viscosity * exp(minimum(exponent, _STIFF))
@@ -174,7 +172,6 @@ class Modulus:
     expansion: float = _expansion()
 
     def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
-        """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         modulus = self.modulus + self.modulus_slope * temperature
         bent = modulus + (self.bend + self.bend_slope * temperature) * pressure
         modulus = np.where(modulus > 0.0, bent, 0.0)
@@ -246,7 +243,6 @@ class AstmD341:
 
     @property
     def error(self) -> str:
-        """Sentence on constants that contradict each other, or an empty text."""
         if self.viscosity_100 >= self.viscosity_40:
             return (
                 f"lubricant.viscosity.viscosity_100 = {self.viscosity_100:g} m2/s must be below viscosity_40 = "
@@ -282,7 +278,6 @@ class AstmD341:
         return float(self.pressure_coefficient / self.log_viscosity(self.reference_temperature))
 
     def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
-        """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         thickness = self.log_viscosity(temperature)
         stiffening = maximum(self._steepness * thickness, 0.0) * pressure
         bend = self.bend_40 + (self.bend_100 - self.bend_40) * (temperature - 313.15) / 60.0

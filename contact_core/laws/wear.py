@@ -13,6 +13,13 @@ from .elementary import Numbers, exp
 from .equations import Equations
 
 Speeds = tuple[float | Array, float]
+_SYMBOLS = {
+    "p_s": "mean solid pressure of a surface point over its track [Pa]",
+    "v": "speed that sliding chooses [m/s]",
+    "H": "hardness of the bare solids, plasticity.hardness [Pa]",
+    "K_{bare}": "bare",
+    "K_{film}": "film",
+}
 
 
 @dataclass(frozen=True)
@@ -61,11 +68,9 @@ class _BySliding(ABC):
 
     @property
     def of_sliding(self) -> bool:
-        """True if the bodies' relative sliding wears them, and spin with it; else each one's own speed does."""
         return self.sliding == "difference"
 
     def slide(self, speeds: Speeds, body: int) -> Any:
-        """Return the speed [m/s] that wears body 1 (`body` = 0) or 2 (1) at the surface speeds (u1, u2) [m/s]."""
         return abs(speeds[body]) if self.sliding == "surface_speed" else abs(speeds[0] - speeds[1])
 
     @abstractmethod
@@ -108,14 +113,7 @@ class Archard(_BySliding):
         ("∂w/∂t = K p_s v/H,   K = K_{bare} + (K_{film} − K_{bare}) c",),
         "ps is the mean solid pressure on a point of the surface over its track, c the thickness of its "
         "tribofilm over the full thickness; wear.sliding chooses the speed v.",
-        symbols={
-            "p_s": "mean solid pressure of a surface point over its track [Pa]",
-            "v": "speed that sliding chooses [m/s]",
-            "H": "hardness of the bare solids, plasticity.hardness [Pa]",
-            "K_{bare}": "bare",
-            "K_{film}": "film",
-            "c": "tribofilm of the body over its full thickness, 0 to 1 [1]",
-        },
+        symbols={**_SYMBOLS, "c": "tribofilm of the body over its full thickness, 0 to 1 [1]"},
     )
 
     bare: float = _bare()
@@ -123,7 +121,6 @@ class Archard(_BySliding):
     sliding: str = _sliding()
 
     def coefficient(self, cover: Array, full_thickness: float) -> Array:
-        """Return the dimensionless wear coefficient K under a tribofilm of `cover` (0 to 1) of its full thickness."""
         return self.bare + (self.film - self.bare) * cover
 
     def film_removal(
@@ -162,11 +159,7 @@ class FilmFirst(_BySliding):
         "The tribofilm wears in proportion to its cover, the solid where the film is thin. ps is the mean solid "
         "pressure on a point of the surface over its track; wear.sliding chooses the speed v.",
         symbols={
-            "p_s": "mean solid pressure of a surface point over its track [Pa]",
-            "v": "speed that sliding chooses [m/s]",
-            "H": "hardness of the bare solids, plasticity.hardness [Pa]",
-            "K_{bare}": "bare",
-            "K_{film}": "film",
+            **_SYMBOLS,
             "h_s": "thin",
             "H_{film}": "hardness of the full tribofilm, plasticity.film_hardness [Pa]",
             "h_{max}": "full thickness of the tribofilm, tribofilm.full_thickness [m]",
@@ -181,7 +174,6 @@ class FilmFirst(_BySliding):
     sliding: str = _sliding()
 
     def coefficient(self, cover: Array, full_thickness: float) -> Array:
-        """Return the coefficient of the solid under a tribofilm of `cover` (0 to 1) of `full_thickness` [m]."""
         return self.bare * exp(-cover * full_thickness / self.thin)
 
     def film_removal(

@@ -1,4 +1,4 @@
-"""Tribofilm and wear over time."""
+"""Tribofilm over time."""
 
 import numpy as np
 
@@ -22,21 +22,3 @@ def ghanbarzadeh_thickness(
     rate = BOLTZMANN * temperature / PLANCK * rate_factor
     formed = full_thickness * (1.0 - np.exp(-rate * np.asarray(time)))
     return formed - removal_thickness * (1.0 - np.exp(-removal_rate * np.asarray(time)))
-
-
-def archard_depth(coefficient: float, hardness: float, pressure: float, sliding_distance: float) -> float:
-    """Return the wear depth [m], K p s / H, under a pressure [Pa] over a sliding distance [m].
-
-    K is dimensionless, H in Pa.
-
-    Source: Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448.
-    """
-    return coefficient * pressure * sliding_distance / hardness
-
-
-def load_cycles(speed: float, time: float, track_length: float) -> float:
-    """Return the passes of a surface point in `time` [s]: |speed| [m/s] time / track length [m].
-
-    |speed| [m/s] time / track length [m].
-    """
-    return abs(speed) * time / track_length

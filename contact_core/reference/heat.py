@@ -39,21 +39,3 @@ def tian_kennedy_circle(peclet: float) -> tuple[float, float]:
     Source: Tian & Kennedy, J. Tribol. 116 (1994) 167, doi:10.1115/1.2927035.
     """
     return float(2.0 / np.sqrt(np.pi * (1.273 + peclet))), float(1.22 / np.sqrt(np.pi * (0.6575 + peclet)))
-
-
-def jaeger_band(x: float, peclet: float) -> float:
-    """Return the steady rise under a band of uniform flux q, endless across, at x in half widths downstream.
-
-    x is zero at the centre. In units of q b / K, b half width; peclet = u b / (2 k).
-    Source: Jaeger, Proc. R. Soc. N. S. W. 76 (1942) 203.
-    """
-    k0e, k1e = scipy.special.k0e, scipy.special.k1e
-
-    def integral(v: float) -> float:  # of exp(w) K0(|w|) from w = 0 to v, in closed form
-        if v == 0.0:
-            return 0.0
-        if v > 0.0:
-            return float(v * (k0e(v) + k1e(v)) - 1.0)
-        return float(-1.0 - v * np.exp(2.0 * v) * (k1e(-v) - k0e(-v)))
-
-    return (integral(peclet * (x + 1.0)) - integral(peclet * (x - 1.0))) / (np.pi * peclet)

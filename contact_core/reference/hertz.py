@@ -152,7 +152,6 @@ class HertzLine(Hertz):
 
     @cached_property
     def area(self) -> float:
-        """Contact area [m2]."""
         return 4.0 * self.a * self.b
 
     def inside(self, x: Array, y: Array, share: float) -> Mask:
@@ -167,7 +166,6 @@ class HertzLine(Hertz):
         return np.tile(2.0 * self.pressure_max * self.a / reduced_modulus * row, (y.size, 1))
 
     def chords(self, y: Array) -> Array:
-        """Return the length along x of the contact's rows at y [m] over 2 a."""
         return np.where(np.abs(y) < self.b, 1.0, 0.0)
 
     @cached_property
@@ -187,7 +185,6 @@ class HertzLine(Hertz):
         return bodies.strip_conductances(0.25 * areas / self.b, self.b, speeds, hottest=hottest)
 
     def growth(self, times: float) -> tuple[float, float]:
-        """Return the factors on a and the pressure, and on b, under `times` the load."""
         return math.sqrt(times), 1.0
 
     def approach_beyond(self, distance: float) -> float:
@@ -258,33 +255,3 @@ def hertz_line(load: float, radius: float, length: float, reduced_modulus: float
     a = math.sqrt(8.0 * per_length * radius / (math.pi * reduced_modulus))
     approach = 2.0 * per_length / (math.pi * reduced_modulus) * (2.0 * math.log(2.0 * length / a) + 1.0)
     return HertzLine(a, 0.5 * length, 2.0 * per_length / (math.pi * a), approach)
-
-
-def palmgren_approach(load: float, length: float, reduced_modulus: float) -> float:
-    """Return the approach [m] of a crowned roller and a raceway, 1.36 (2 load / E')^0.9 / length^0.8, load in N.
-
-    A fit to measurements, in which the radii do not appear; for steel it is 3.84e-5 load^0.9 / length^0.8 in mm.
-    Source: Palmgren, Ball and Roller Bearing Engineering, 3rd ed., 1959, in the form of Eschmann, Hasbargen & Weigand,
-    Ball and Roller Bearings, 1985.
-    """
-    return 1.36 * (2.0 * load / reduced_modulus) ** 0.9 / length**0.8
-
-
-def brewe_hamrock(load: float, radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:
-    """Return the contact of `hertz_point` by powers and logarithms in place of elliptic integrals, as a check.
-
-    With the ratio r > 1 of the radii: long over short half width 1.0339 r^0.636, E = 1.0003 + 0.5968 / r, K = 1.5277 +
-    0.6023 ln r.
-
-    For radii in a ratio of up to 100 half widths are within 4.5 % of the exact ones, the pressure within 2.5 %, the
-    approach within 5.5 %, least sure near the circle; half widths and pressure are within 2 % from 1.3 to 50.
-    Source: Brewe & Hamrock, J. Lubr. Technol. 99 (1977) 485, doi:10.1115/1.3453245.
-    """
-    small, large = sorted((radius_x, radius_y))
-    ratio, curvature = large / small, 1.0 / small + 1.0 / large
-    k = 1.0339 * ratio**0.636  # long half width over the short one
-    ellipe, ellipk = 1.0003 + 0.5968 / ratio, 1.5277 + 0.6023 * math.log(ratio)
-    long = (6.0 * k * k * ellipe * load / (math.pi * reduced_modulus * curvature)) ** (1 / 3)
-    approach = ellipk * (4.5 * curvature / ellipe * (load / (math.pi * k * reduced_modulus)) ** 2) ** (1 / 3)
-    a, b = (long / k, long) if radius_x == small else (long, long / k)
-    return Hertz(a, b, 1.5 * load / (math.pi * a * b), approach)

@@ -90,25 +90,6 @@ def hamrock_dowson(contact: SmoothContact) -> tuple[float, float]:
     return float(central * contact.radius_x), float(minimum * contact.radius_x)
 
 
-def chittenden(contact: SmoothContact) -> tuple[float, float]:
-    """Return central and minimum film thickness [m] of ellipses with either axis along the entrainment.
-
-    h / R_x = C U^0.68 G^0.49 W^-0.073 {1 - exp[-d (R_y / R_x)^(2/3)]}, with C = 4.31 and d = 1.23 for h_c, 3.68 and
-    0.67 for h_min; U, G and W as in `hamrock_dowson`.
-
-    Source: Chittenden, Dowson, Dunn & Taylor, Proc. R. Soc. A 397 (1985) 245 and 271.
-    """
-    speed = contact.viscosity * contact.entrainment_speed / (contact.reduced_modulus * contact.radius_x)
-    material = contact.pressure_coefficient * contact.reduced_modulus
-    load = contact.load / (contact.reduced_modulus * contact.radius_x**2)
-    unleaked = speed**0.68 * material**0.49 * load**-0.073 * contact.radius_x
-    width = (contact.radius_y / contact.radius_x) ** (2 / 3)
-    return (
-        4.31 * unleaked * (1.0 - math.exp(-1.23 * width)),
-        3.68 * unleaked * (1.0 - math.exp(-0.67 * width)),
-    )
-
-
 def nijenbanning_venner_moes(contact: SmoothContact) -> float:
     """Return the central film thickness [m], over all regimes from rigid-isoviscous to elastic-piezoviscous.
 

@@ -20,7 +20,7 @@ def logarithmic_drop(
 
     `crowned` is the share of the length [m] that is crowned, the middle is straight; end_drop [m] is that of the ends.
     Crowned throughout and with an infinite end_drop it is Lundberg's depth ln{1 / [1 - (2 y / length)^2]}, under which
-    the load is spread evenly if the depth is `lundberg_depth`; ISO 16281 takes 0.00035 roller diameters.
+    the load [N] is spread evenly if the depth is 2 load / (pi E' length); ISO 16281 takes 0.00035 roller diameters.
     Source: Lundberg, Forsch. Ing.-Wes. 10 (1939) 201; end_drop = depth ln[length / (0.6066 a)], a Hertz's half width:
     Johns & Gohar, Tribol. Int. 14 (1981) 131; in general: Fujiwara & Kawase, NTN Tech. Rev. 75 (2007) 140.
     """
@@ -30,11 +30,6 @@ def logarithmic_drop(
     with np.errstate(divide="ignore"):
         drop = -depth * np.log1p(-kept * s * s)
     return np.where(y <= 0.5 * length, drop, math.inf)
-
-
-def lundberg_depth(load: float, length: float, reduced_modulus: float) -> float:
-    """Return the depth [m] of the logarithmic drop that spreads a load [N] evenly, 2 load / (pi E' length)."""
-    return 2.0 * load / (math.pi * reduced_modulus * length)
 
 
 def rounded_drop(y: ArrayLike, length: float, straight: float, radius: float) -> Array:

@@ -11,14 +11,10 @@
     stress         stresses and load cycles below a mean contact
     outputs        outputs and their errors
     fatigue        damage, pits and what they are on the track
-    evolution      `advance`: the track means over time
-    warming        loads packages before the first step of a process
+    evolution      `advance`: the track means over time; `warm_up` loads packages before the first step of a process
 
 Imports run from the bottom of this list to its top.
 """
 
-from .evolution import advance
+from .evolution import advance, warm_up
 from .outputs import errors_of
-from .warming import warm_up
-
-__all__ = ["advance", "errors_of", "warm_up"]

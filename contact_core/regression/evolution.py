@@ -1,8 +1,6 @@
-"""The evolution over time at the regression level: the track means of both surfaces.
+"""The evolution over time at the regression level: the track means of both surfaces. A step solves nothing.
 
-A step solves nothing: `contact` has the film from a formula and the friction from curves fitted to the deterministic
-level, and the surfaces are a handful of numbers per body. The patches of the state stay as they are meanwhile;
-`surfaces.track_means` brings them up to date when a run returns to the deterministic level.
+The patches of the state stay; `surfaces.track_means` brings them up to date when a run returns to the other level.
 """
 
 import math
@@ -238,3 +236,8 @@ def _body_after(
         formed=formed,
         oxide=oxide,
     )
+
+
+def warm_up(case: Case, state: ContactState) -> None:
+    """Evaluate the contact once."""
+    advance(case, state, 0.0)

@@ -1,7 +1,6 @@
 """Load cycles and von Mises stress below the smooth bodies of a contact with friction: a table, made once.
 
-Hertz's pressure and the same share of it as shear move across the material. In units of the largest pressure and of
-Hertz's half widths all that is left are depth, place across the track, friction and the shape of the ellipse.
+In the largest pressure and Hertz's half widths: by depth, place across the track, friction, shape of the ellipse.
 """
 
 import math

@@ -38,24 +38,3 @@ from .scene import Scene
 from .self_affine import SelfAffine
 from .surface import Surface
 from .tunables import tunables, with_values
-
-__all__ = [
-    "Assumed",
-    "Case",
-    "Control",
-    "HeightStatistics",
-    "Heights",
-    "Lubricant",
-    "OperatingPoint",
-    "Operation",
-    "Scene",
-    "SelfAffine",
-    "Side",
-    "Solids",
-    "Step",
-    "Surface",
-    "statistics_of",
-    "told",
-    "tunables",
-    "with_values",
-]

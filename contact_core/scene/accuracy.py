@@ -1,8 +1,6 @@
-"""Choice of grid, tolerance, blocks and instants of a scene that asks for an accuracy.
+"""Choice of grid, tolerance, blocks and instants of a scene that asks for an accuracy, `control.accuracy`.
 
-`control.accuracy` is the half width (95 %) of the error of friction and h_c, relative, and of W_c, absolute, that a
-scene asks for. What the scene says of the fields in `records.CHOSEN` stays; the others are chosen, the cheapest that
-will do.
+What the scene says of the fields in `records.CHOSEN` stays; the others are chosen, the cheapest that will do.
 """
 
 import math

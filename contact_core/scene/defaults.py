@@ -1,9 +1,7 @@
 """What a scene that does not say otherwise has: laws switched off, usual numbers of the field, numerical settings.
 
-A default stands for what a data sheet and a drawing do not give. Load, speeds, temperature, radius, roughness, the oil
-and the solids have none; neither have the constants of a law that is chosen by its `model`. Every default that a scene
-takes is listed as `Assumed`, so that a run can say it. The grid follows from Hertz's contact, see `hertz_grid`; fields
-with a default of their own in the records (such as film.tolerance) are not listed.
+Every default that a scene takes is listed as `Assumed`, but for those of fields in the records (film.tolerance). What a
+data sheet and a drawing give has none, nor have the constants of a law that is chosen by its `model`.
 """
 
 import copy

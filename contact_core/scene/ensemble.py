@@ -1,11 +1,7 @@
 """Several surfaces of one body in a scene: `surface_i.files` or `surface_i.seeds`, each of them a member.
 
-    [surface_2]
-    files = ["disc_a.toml", "disc_b.toml", "disc_c.toml"]
-
-A scene is one contact, so that a list is refused where a scene is read; `members` gives what makes a scene of each.
-Lists of both bodies are paired. A file is a set (PATH.toml, the set that is called after its file, or PATH.toml:NAME)
-or heights (.npy, .csv) with spacing and unit in [surface_i.heights].
+A file is a set (PATH.toml, the set that is called after its file, or PATH.toml:NAME) or heights (.npy, .csv) with
+spacing and unit in [surface_i.heights]. Lists of both bodies are paired.
 """
 
 from collections.abc import Mapping

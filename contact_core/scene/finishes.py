@@ -1,8 +1,7 @@
 """What a finish such as "ground" says of a surface: data/finishes.toml, with sources and intervals.
 
-Roughness rq with its correlation length, for a grid; and what is shorter than 4 um, as microroughness. The shortest
-waves of Gaussian heights are 0.7 of their correlation length: none counts twice on any grid. Between 4 um and two nodes
-of a coarser grid the waves are in the height of rq, at a longer wave.
+Roughness rq with its correlation length for a grid, and what is shorter than 4 um as microroughness: none counts twice,
+as the shortest waves of Gaussian heights are 0.7 of their correlation length.
 """
 
 import math

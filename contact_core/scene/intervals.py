@@ -1,13 +1,7 @@
-"""What a scene assumes, and between which values it may lie.
+"""What a scene assumes, and between which values it may lie; docs/how-to/scenes.md has an example.
 
-    [intervals]
-    "surface_1.correlation_length" = ["4 um", "16 um"]
-    "boundary_friction.bare" = ["-20 %", "+15 %"]  # of the scene's own value
-    "tribofilm.activation_energy, tribofilm.prefactor" = [["53 kJ/mol", "0.3 m/s"], ["80 kJ/mol", "2890 m/s"]]
-
-Values that were found together go together: all are at their first ends, or all at their last. Named sets and defaults
-bring their own; a value that is set beside them has none unless its scene gives one. What the intervals are worth in
-friction, film, wear and tribofilm: `contact_core.assumed`.
+Values that were found together are all at their first ends, or all at their last. Named sets and defaults bring their
+own; a value set beside them has none unless its scene gives one. What they are worth: `contact_core.assumed`.
 """
 
 from collections.abc import Iterator, Mapping

@@ -1,12 +1,7 @@
 """Where each value of a scene comes from: its file, a named set, a setting, an accuracy asked for, or a default.
 
-Files of scenes and sets say it in comments, which are read here and nowhere else:
-
-    viscosity = "4 mPa s"   # source of this value, "assumed: why", "chosen: why" if it is no property, or a remark
-    [wear]                  # the source of all values of a table that have none of their own
-    # Source: ...           (before the first table: about the whole file)
-
-A set may have a key `source` beside its tables instead.
+Comments say it, read here alone: behind a value (a source, "assumed: why", "chosen: why" or a remark), behind a table's
+header for all of it, before the first table for the file. A set may have a key `source` instead.
 """
 
 import re

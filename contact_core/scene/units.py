@@ -1,7 +1,6 @@
 """Units at the border: text such as "1.26 GPa" or "90 degC" becomes a float in SI, once.
 
-Inside the package every number is SI. A dimension is the tuple of exponents of (m, kg, s, K, rad). An angle is a
-number, too: where rad/s are asked for, 1/s will do.
+A dimension is the tuple of exponents of (m, kg, s, K, rad). Where rad/s are asked for, 1/s will do.
 """
 
 import math

@@ -15,16 +15,3 @@ from .point import Point, PointGeometry
 from .roller import Profile, Roller, RollerGeometry
 
 GEOMETRIES: tuple[type[Geometry], ...] = (PointGeometry, LineGeometry, RollerGeometry)
-
-__all__ = [
-    "GEOMETRIES",
-    "Geometry",
-    "Line",
-    "LineGeometry",
-    "Point",
-    "PointGeometry",
-    "Profile",
-    "Roller",
-    "RollerGeometry",
-    "Shape",
-]

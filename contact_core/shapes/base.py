@@ -1,8 +1,6 @@
-"""The questions that every shape answers, and what the records of all shapes have in common.
+"""The questions that every shape answers: `Shape`, the undeformed, smooth bodies; `Geometry`, the record of a scene.
 
-A `Geometry` is the record of a scene (radii, tracks, face width); its `shape` at an operating point is a `Shape`: the
-undeformed, smooth bodies as the film sees them. A new shape is one file with both classes and one entry in
-`GEOMETRIES`. Nothing outside this package asks which class a shape is.
+A new shape is one file with both classes and one entry in `GEOMETRIES`. Nothing else asks which class a shape is.
 """
 
 from collections.abc import Callable

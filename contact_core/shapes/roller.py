@@ -31,12 +31,10 @@ class Roller(Line):
     profile: Profile
 
     def gap(self, x: Array, y: Array, unit: float) -> Array:
-        """Return the gap of the touching bodies."""
         drop = np.minimum(self.profile.drop(y * unit, self.length), _DEEPEST * self.radius_x)
         return 0.5 * x[None, :] ** 2 + drop[:, None] * (self.radius_x / unit**2)
 
     def carried(self, hertz: Hertz, size: float, depth: float) -> float:
-        """Return the load of a grid in these units; all of the roller is on it."""
         return 0.5 * np.pi * self.length / size
 
 

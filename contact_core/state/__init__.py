@@ -1,8 +1,7 @@
 """Everything that can change the next answer, frozen, and what a step gives back.
 
     state              `ContactState` with its bodies and track means, as records and as bytes
-    outputs            `Outputs` and `RangeFlag`
-    error              `Error` of an output, by its causes
+    outputs            `Outputs`, `Error` of an output by its causes, and `RangeFlag`
     trends             outputs without their noise, errors of time steps and of sampling
     solved             deterministic solutions that correct the regression level
     below              tractions, load cycles and damage below the surfaces
@@ -16,8 +15,8 @@ Records are frozen: a step returns new ones.
 
 from .below import Below
 from .classes import Classes
-from .error import Error
 from .outputs import (
+    Error,
     Outputs,
     RangeFlag,
     flag_of_errors,
@@ -28,22 +27,3 @@ from .outputs import (
 )
 from .solved import Solved
 from .state import Body, ContactState, Mean, changed, initial_state
-
-__all__ = [
-    "Below",
-    "Body",
-    "Classes",
-    "ContactState",
-    "Error",
-    "Mean",
-    "Outputs",
-    "RangeFlag",
-    "Solved",
-    "changed",
-    "flag_of_errors",
-    "flag_of_pits",
-    "flag_of_scuffing",
-    "flag_of_wear",
-    "flags_of_tribofilm",
-    "initial_state",
-]

@@ -1,13 +1,35 @@
 """The outputs of the core, and flags for answers that are less sure than usual."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import make_dataclass
 from enum import IntFlag
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from ..laws.base import Tribofilm
 from ..laws.tribofilm import DOSES
 from ..quantities import OF_CORE
+
+
+class Error(NamedTuple):
+    """Half widths (95 %) of the error of an output by each of its causes, in its unit."""
+
+    time: float = 0.0  # steps in time: blocks
+    sampling: float = 0.0  # the few instants at which a block is solved
+    grid: float = 0.0  # distance of the nodes
+    iteration: float = 0.0  # solutions that stop early, and time steps in which contacts begin and end
+    curves: float = 0.0  # fitted curves of the regression level
+    inlet: float = 0.0  # a domain that ends within the inlet
+
+    @property
+    def together(self) -> float:
+        """Half width by all causes, as if they were independent."""
+        return math.hypot(*self)
+
+    def scaled(self, factor: float) -> "Error":
+        """Return the error of the output times a factor."""
+        return Error(*(abs(factor) * part for part in self))
+
 
 _TYPES = {"Real": float, "Integer": int}
 

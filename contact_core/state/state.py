@@ -1,8 +1,6 @@
-"""Everything that can change the next answer, frozen, and what a step gives back.
+"""Everything that can change the next answer, frozen, and what a step gives back: `advance` returns a new state.
 
-A state is never changed: `advance` returns a new one, so the caller may keep, compare and go back to any of them.
-Arrays are read-only and lie on body-fixed patches [ny, nx], periodic along x, except the film's, which lie on the
-grid of the contact.
+Read-only arrays on body-fixed patches [ny, nx], periodic along x, but for the film's, on the grid of the contact.
 """
 
 import struct

@@ -1,8 +1,7 @@
 """Frozen records of numbers and arrays as little-endian bytes and back, bit for bit.
 
-Numbers take 8 bytes each, in the order of their fields. Of an array its kind, its shape and a checksum stand with the
-numbers, and its memory is kept apart, so that it need not be copied; an array of one value everywhere has no memory of
-its own, but that value.
+Numbers take 8 bytes each, in the order of their fields; of an array kind, shape and checksum stand with them, and its
+memory is kept apart, uncopied. An array of one value everywhere has that value for memory.
 """
 
 import math

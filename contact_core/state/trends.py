@@ -1,11 +1,7 @@
-"""Outputs of blocks without their noise, and how sure they are.
+"""Outputs of blocks without their noise, and how sure they are: those with a `trend` in the quantity table.
 
-The column `trend` of the quantity table says which outputs are followed, and how.
-
-A block samples the moving surfaces at a few instants, so its means scatter; and they drift, as the surfaces change.
-A fading-memory filter of level and slope follows each quantity from block to block. Its residuals give the sampling
-error, its slope the error of time steps, apart from each other. After a step a slope would carry a level beyond zero,
-where nothing was seen: it is cut first, that of all parts of friction, power and heat alike, so that their sums hold.
+A fading-memory filter of level and slope follows each from block to block: its residuals give the sampling error, its
+slope the error of time steps. A slope that would carry a level beyond zero is cut, for all parts of a sum alike.
 """
 
 from collections.abc import Mapping

@@ -19,7 +19,6 @@ class Raw(str):
 
 
 def text(words: object) -> str:
-    """Return escaped text."""
     return escape(str(words))
 
 
@@ -42,7 +41,6 @@ def _cell(cell: object) -> str:
 
 
 def section(name: str, title: str, *parts: str) -> str:
-    """Return a section of the page."""
     return f'<section id="{name}"><h2>{text(title)}</h2>\n{"".join(parts)}</section>\n'
 
 
@@ -87,7 +85,6 @@ def linked(words: str) -> str:
 
 
 def source(words: str) -> str:
-    """Return the source of an equation."""
     return f'<p class="source">Source: {linked(words)}</p>'
 
 

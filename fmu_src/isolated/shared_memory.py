@@ -82,5 +82,4 @@ class SharedMemory:
         _syscall(*self._wake)
 
     def close(self) -> None:
-        """Close the file."""
         os.close(self._file)

@@ -2,6 +2,8 @@
 
 import re
 from collections.abc import Sequence
+from pathlib import Path
+from string import Template
 from typing import Any
 
 import numpy as np
@@ -120,43 +122,16 @@ def header(
     """Return contact.h for a table of variables, members of the state, outputs of the equations, and more lines."""
     inputs = [v.name for v in table if v.causality == "input"]
     known = {v.name: v for v in table}
-    return "\n".join(
-        [
-            f"/* {about} SI units. */",
-            "",
-            "#ifndef CONTACT_H",
-            "#define CONTACT_H",
-            "",
-            *struct("contact_inputs", inputs, known),
-            "/* The slow state: plain numbers, to be copied as they are. */",
-            *struct("contact_state", fields, {}),
-            *struct("contact_outputs", outputs, known),
-            "/* Why a step was refused; empty if it was not. */",
-            "typedef struct {",
-            "    char text[512];",
-            "} contact_message;",
-            "",
-            "/* Each returns 0, or 1 with a message: then state and outputs stand as they were. */",
-            "",
-            "/* Fresh surfaces, and the outputs of the contact as it is. */",
-            "int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out, "
-            "contact_message *why);",
-            "",
-            "/* A step of dt [s] under held inputs; dt = 0 evaluates the contact. */",
-            "int contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out, "
-            "contact_message *why);",
-            "",
-            "/* The outputs dfriction_d*, which the others do without: they cost as much as several steps. */",
-            "int contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out, "
-            "contact_message *why);",
-            "",
-            *also,
-            "#endif",
-            "",
-        ]
+    return _HEADER.substitute(
+        about=about,
+        inputs="\n".join(struct("contact_inputs", inputs, known)),
+        state="\n".join(struct("contact_state", fields, {})),
+        outputs="\n".join(struct("contact_outputs", outputs, known)),
+        also="".join(f"{line}\n" for line in also),
     )
 
 
+_HEADER = Template(Path(__file__).with_name("contact.h.in").read_text("ascii"))
 INCLUDES = """\
 /* Written from contact_core; each function names the Python that it was written from. Do not edit. */
 

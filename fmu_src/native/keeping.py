@@ -55,7 +55,6 @@ def _keep(file: Path, data: bytes) -> None:
 
 
 def folder() -> Path:
-    """Return the folder of what is kept."""
     return (user_cache() or _NOWHERE) / "tribofmu" / "native"
 
 

@@ -3,6 +3,8 @@
 import math
 import sys
 from collections.abc import Iterable, Sequence
+from pathlib import Path
+from string import Template
 
 from contact_core.state import RangeFlag
 
@@ -24,42 +26,7 @@ _LONGEST_TOKEN = 39  # characters
 _LARGEST = sys.float_info.max
 _NO_INPUT = '"none", "", "", PLACE_OF_INPUT(none), 0.0, 0.0, 1.0'  # C has no empty array
 
-_FILE = """/* Written by tribofmu for one scene; see model.h. */
-
-#include "model.h"
-
-const char MODEL_TOKEN[TOKEN] = {token};
-const char MODEL_STATES[TOKEN] = {states};
-
-const double MODEL_FIDELITY = {fidelity};
-const int MODEL_FOLLOWS = {follows};
-
-/* in order of value references */
-const Variable MODEL_VARIABLES[] = {{
-{variables}
-}};
-const size_t MODEL_VARIABLES_COUNT = sizeof MODEL_VARIABLES / sizeof *MODEL_VARIABLES;
-
-const Input MODEL_INPUTS[INPUTS] = {{
-{inputs}
-}};
-
-const Derivative MODEL_DERIVATIVES[] = {{
-{derivatives}
-}};
-const size_t MODEL_DERIVATIVES_COUNT = {derivatives_count};
-
-const size_t MODEL_FRICTION_FORCE = {friction}, MODEL_RANGE_FLAGS = {flag_output};
-
-const Flag MODEL_FLAGS[] = {{
-{flags}
-}};
-const size_t MODEL_FLAGS_COUNT = sizeof MODEL_FLAGS / sizeof *MODEL_FLAGS;
-
-const char *const MODEL_CATEGORIES[CATEGORIES] = {{
-{categories}
-}};
-"""
+_FILE = Template(Path(__file__).with_name("model.c.in").read_text("ascii"))
 
 
 def model_c(table: Sequence[Variable], token: str, states: str, *, ranges: bool = True) -> str:
@@ -77,7 +44,7 @@ def model_c(table: Sequence[Variable], token: str, states: str, *, ranges: bool 
     inputs = [v for v in table if v.causality == "input"]
     derivatives = [v.name for v in table if v.name.startswith(_DERIVATIVE)]
     fidelity = next((v.start for v in table if v.name == FIDELITY), 0.0)
-    return _FILE.format(
+    return _FILE.substitute(
         token=c_text(token),
         states=c_text(states),
         fidelity=_number(fidelity),

@@ -1,7 +1,6 @@
 """contact.c, contact.h and slopes.c: one scene in C99, at a level that solves no contact, written from its Python.
 
-`step`, `derivatives` and `first_state` are the program: Python that runs as it stands, and that `translate` writes as C
-for one scene. All equations are those of `contact_core`.
+`step`, `derivatives` and `first_state` are the program, Python that runs as it stands. Equations: `contact_core`.
 """
 
 import copy
@@ -143,7 +142,6 @@ def first_state(scene: Scene) -> ContactState:
 
 
 def inputs_of(scene: Scene) -> tuple[str, ...]:
-    """Return the names of the inputs."""
     return tuple(v.name for v in variables(scene) if v.causality == "input")
 
 

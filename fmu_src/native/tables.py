@@ -11,7 +11,6 @@ _DIGITS = 60
 
 
 def tables_h() -> str:
-    """Return the text of tables.h."""
     with localcontext() as context:
         context.prec = _DIGITS
         two = Decimal(2).ln()

@@ -1,7 +1,6 @@
 """Build an FMU: model description, documentation, resources and binaries in one zip.
 
-pythonfmu's own builder is not used: it writes time and a random guid into every FMU, runs the model to describe it, and
-packs a copy of itself that would hide the installed one.
+pythonfmu's builder writes time and a random guid, runs the model to describe it, and packs a copy of itself.
 """
 
 import io
@@ -17,7 +16,7 @@ from ..flavours import VERSIONS, Flavour, Version
 from ..native import program
 from ..runtime import resources
 from ..variables import Variable, variables
-from . import compiled, evidence, fmi2, fmi3, icon, licences, terminals
+from . import compiled, evidence, fmi2, fmi3, licences, terminals
 from .describe import Model, described, variables_of
 from .document.page import documentation
 
@@ -87,10 +86,11 @@ def check(flavour: Flavour, fmi: Version, scene: Scene | None = None) -> None:
 
 def _picture(scene: Scene, fmi: Version) -> dict[str, bytes]:
     """Return name and content of the files that show the FMU in diagrams."""
+    icon = Path(__file__).with_name("icon.png").read_bytes()
     if fmi == 2:
-        return {"model.png": icon.png()}
+        return {"model.png": icon}
     return {
-        f"{terminals.FOLDER}/icon.png": icon.png(),
+        f"{terminals.FOLDER}/icon.png": icon,
         f"{terminals.FOLDER}/terminalsAndIcons.xml": terminals.terminals(variables(scene)),
     }
 
@@ -165,5 +165,4 @@ def binaries(flavour: Flavour, model: str, fmi: Version = 2) -> dict[str, bytes]
 
 
 def _folder(platform: str, fmi: Version) -> str:
-    """Return the name of a platform's folder."""
     return platform if fmi == 2 else _TUPLES[platform]

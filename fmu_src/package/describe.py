@@ -2,12 +2,15 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from xml.etree import ElementTree as ET
 
 import pythonfmu
 
 import contact_core
+from contact_core.assumed import LEAST, assumed
+from contact_core.assumed import text as half_width
+from contact_core.errors import ContactError
 from contact_core.quantities import CELSIUS, measured
 from contact_core.scene import Scene, units
 
@@ -17,7 +20,6 @@ from ..runtime.guarded import LOG_CATEGORIES
 from ..runtime.resources import MODEL, guid
 from ..variables import Value, Variable, variables
 from . import licences
-from .assumptions import with_assumptions
 from .usable import usable
 
 INITIAL = {"parameter": "exact", "output": "calculated"}  # other causalities have one kind, which is left out
@@ -100,14 +102,12 @@ def add_units(root: ET.Element, table: Iterable[Variable]) -> None:
 
 
 def add_log_categories(root: ET.Element) -> None:
-    """Add the categories of log messages."""
     categories = ET.SubElement(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():
         ET.SubElement(categories, "Category", {"name": name, "description": text})
 
 
 def add_experiment(root: ET.Element, model: Model) -> None:
-    """Add the default experiment."""
     ET.SubElement(root, "DefaultExperiment", {name: value_text(value) for name, value in model.experiment.items()})
 
 
@@ -225,3 +225,20 @@ def dependencies(depends: tuple[int, ...] | None, first: int) -> dict[str, str]:
         return {}
     known = [str(first + place) for place in depends]
     return {"dependencies": " ".join(known), "dependenciesKind": " ".join(["dependent"] * len(known))}
+
+
+def with_assumptions(scene: Scene, table: Iterable[Variable]) -> tuple[Variable, ...]:
+    """Return the variables with the half widths by what the scene assumes, at its own operating point, in words."""
+    try:
+        worth = assumed(scene, scene.operation.point)
+    except ContactError:  # the regression level has no answer there
+        return tuple(table)
+    halves = {name: half_width(name, each.together) for name, each in worth.items() if each.together >= LEAST[name]}
+    return tuple(replace(v, text=f"{v.text}{_words(v, halves)}") for v in table)
+
+
+def _words(variable: Variable, halves: dict[str, str]) -> str:
+    output = variable.name.removesuffix("_1").removesuffix("_2")
+    if variable.causality != "output" or output not in halves:
+        return ""
+    return f"; by what the scene assumes +- {halves[output]} at its own operating point"

@@ -1,12 +1,13 @@
 """Reference data in the FMU: a short run of its contact, so that an importer can check itself.
 
-In the layout of the FMI layered standard for references (fmi-ls-ref, 1.0.0-alpha.1): a manifest names an experiment,
-the experiment a table of stimuli and one of expected outputs.
+Layout: the FMI layered standard for references (fmi-ls-ref, 1.0.0-alpha.1), a manifest, stimuli, expected outputs.
 """
 
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, replace
 from itertools import pairwise
+from pathlib import Path
+from string import Template
 from xml.etree import ElementTree as ET
 
 from contact_core import ContactError, OperatingPoint, Outputs, advance, initial_state
@@ -35,20 +36,9 @@ COMPARED = (
 )
 
 _PURPOSE = "Replay of five steps: a change of load, of speed, a reversal and pure rolling"
-_EXPLAINED = f"""{_PURPOSE}.
-
-{FOLDER}/{STIMULI}
-    inputs; each row holds from its time until that of the next row
-{FOLDER}/{EXPECTED}
-    expected outputs: in the first row after initialisation with the first row of inputs, in every other row at the end
-    of one step from the time of the row before
-
-Parameters keep their start values. Take the steps as they are: with other steps, the contact is solved at other
-instants. Values are in the units of modelDescription.xml, times in s, `valid` is 0 or 1.
-
-Tolerance: {TOLERANCE:g} of the largest magnitude in the column. Round-off, as on another processor, moves the values
-by far less, unless it makes the solver stop an iteration earlier or later.
-"""
+_EXPLAINED = Template(Path(__file__).with_name("fmi-ls-ref.txt.in").read_text("ascii")).substitute(
+    purpose=_PURPOSE, stimuli=f"{FOLDER}/{STIMULI}", expected=f"{FOLDER}/{EXPECTED}", tolerance=f"{TOLERANCE:g}"
+)
 _LAYERED_STANDARD = {
     "fmi-ls-name": "org.fmi-standard.fmi-ls-ref",
     "fmi-ls-version": "1.0.0-alpha.1",

@@ -1,7 +1,6 @@
 """terminalsAndIcons/terminalsAndIcons.xml of FMI 3.0: variables that belong together, and the icon.
 
-A terminal is what one neighbour of the contact is connected to: a body, the normal direction, the spin, the oil. The
-two bodies have the same members, so that either can be connected to the same neighbour.
+A terminal is what one neighbour of the contact is connected to: a body, the normal direction, the spin, the oil.
 """
 
 from collections.abc import Sequence

@@ -1,10 +1,8 @@
 """Resources of an FMU for its slave, written and read in one place.
 
-`scene.json` is the scene, `heights_*.npy` are its heights from files, `map_*.json` is its map from a file,
-`versions.json` the packages it was built with; `slavemodule.txt` names the script that defines the slave. The name of
-the script contains a fingerprint of scene and versions: two FMUs in one process never share a module, and an edited
-scene is detected. An isolated FMU has in addition `start.py`, which its library runs, `guid.txt`, and `python.txt` if
-an interpreter was recorded (package.build).
+`scene.json`, `heights_*.npy` and `map_*.json` of the scene, `versions.json` of packages, `slavemodule.txt` with the
+name of the slave's script, in which a fingerprint of scene and versions keeps FMUs in one process apart; an isolated
+FMU has `start.py`, `guid.txt` and `python.txt`, too.
 """
 
 import functools
@@ -15,6 +13,7 @@ import zlib
 from dataclasses import replace
 from importlib import metadata
 from pathlib import Path
+from string import Template
 from typing import Any
 
 import pythonfmu
@@ -33,27 +32,13 @@ MODEL = "MixedContact"
 VERSIONS = {"contact_core": contact_core.__version__, "pythonfmu": pythonfmu.__version__}
 
 # The binary runs the file twice and takes the deepest subclass of Fmi2Slave among its names: define one only.
-_SCRIPT = '''"""The slave that the FMU's library loads."""
-
-from {package} import {module}
-
-# Each instantiation, pythonfmu 0.7 drops one reference too many to this module's names: add one.
-globals().setdefault("_references", []).append(globals())
-
-
-if "{model}" in globals():
-    {model} = globals()["{model}"]  # one class for all instances: classes are never freed
-else:
-
-    class {model}({module}.{name}):
-        """{text}"""
-'''
+_SCRIPT = Template(Path(__file__).with_name("slave.py.in").read_text("ascii"))
 
 
 def script(model: str, slave: str, text: str) -> bytes:
     """Return the script that defines the slave: the class `model`, derived from `slave` (package.module.Class)."""
     package, module, name = slave.rsplit(".", 2)
-    return _SCRIPT.format(model=model, package=package, module=module, name=name, text=text).encode()
+    return _SCRIPT.substitute(model=model, package=package, module=module, name=name, text=text).encode()
 
 
 def guid(scene: Scene, flavour: Flavour, version: Version = 2) -> str:

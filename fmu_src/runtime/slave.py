@@ -105,7 +105,6 @@ class ContactSlave(GuardedSlave):
             advance(scene.at_level(LEVELS[0]), scene.operation.point, initial_state(scene), 0.0)
 
     def _initialise(self) -> None:
-        """Make scene, state and outputs from the present parameters and inputs."""
         self._scenes = self._state = None
         self._fault = "an unexpected error was logged at initialisation."
         try:
@@ -180,7 +179,6 @@ class ContactSlave(GuardedSlave):
         return Snapshot(self._module, self._layout, self.phase, self._fault, values, self._scenes, self._state)
 
     def _restore(self, handle: Snapshot | bytes) -> None:
-        """Restore a state. An unusable one is an error: the host would take it for the contact's state."""
         try:
             if isinstance(handle, bytes):
                 handle = Snapshot.from_bytes(handle, self._module, self._layout, self._rebuilt)

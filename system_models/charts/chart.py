@@ -52,7 +52,6 @@ class Line:
 
     @property
     def hollow(self) -> bool:
-        """Whether its marks are hollow."""
         return "h" in self.style
 
 

@@ -33,14 +33,12 @@ def write(sheets: Mapping[str, Sheet], folder: Path) -> list[Path]:
 
 
 def png(sheet: Sheet, dpi: int = 110) -> bytes:
-    """Return a sheet as PNG."""
     kept = io.BytesIO()
     figure(sheet).savefig(kept, format="png", dpi=dpi)
     return kept.getvalue()
 
 
 def figure(sheet: Sheet) -> "Figure":
-    """Return a sheet as a figure of matplotlib."""
     from matplotlib.figure import Figure
 
     columns = max(min(sheet.columns, len(sheet.charts)), 1)

@@ -33,7 +33,6 @@ class Unit(NamedTuple):
     offset: float = 0.0
 
     def of(self, values: ArrayLike) -> Array:
-        """Return values in SI in this unit."""
         return self.factor * np.asarray(values, dtype=float) + self.offset
 
     @property

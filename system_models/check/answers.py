@@ -28,7 +28,6 @@ class FirstRun(NamedTuple):
 
     @classmethod
     def read(cls, notebook: Path) -> "FirstRun":
-        """Return the notes of the first run."""
         return cls(*json.loads((notebook / "first_run.json").read_text()))
 
 

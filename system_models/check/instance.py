@@ -47,7 +47,6 @@ def call_in(trace: bytes) -> str:
 
 
 def progress_in(trace: bytes) -> str:
-    """Return the progress of the rule, in a trace."""
     return trace.decode("utf-8", "replace").partition("\n")[2]
 
 
@@ -234,12 +233,10 @@ class Instance:
             self._call(setter, [variable.valueReference], [typed], about=f" of {name} = {value:g}")
 
     def put_text(self, name: str, text: bytes) -> None:
-        """Set a String to any bytes."""
         about = f" of {name} = {text[:8]!r}{'...' if len(text) > 8 else ''}, {len(text)} bytes"
         self._call("setString", [self._owner.variables[name].valueReference], [text], about=about)
 
     def read(self, names: list[str]) -> dict[str, Value]:
-        """Return values of variables by name."""
         found = {}
         for name in names:
             variable = self._owner.variables[name]
@@ -261,7 +258,6 @@ class Instance:
         self.time += size
 
     def outputs(self) -> dict[str, Value]:
-        """Return all outputs."""
         return self.read([v.name for v in self._owner.outputs])
 
     def row(self) -> Row:
@@ -290,7 +286,6 @@ class Instance:
         self._call("freeFMUState", saved[0])
 
     def stored(self) -> bytes:
-        """Return the state as bytes."""
         saved = self.save()
         data = self._call("serializeFMUState", saved[0])
         self.forget(saved)

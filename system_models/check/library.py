@@ -72,7 +72,6 @@ class FMU2Checked(_Checked, FMU2Library):  # fmpy takes the version of FMI from 
 
     @classmethod
     def spelt(cls, method: str) -> str:
-        """Return fmpy's name of a method."""
         return cls._spelling.get(method, method)
 
     @staticmethod
@@ -106,7 +105,6 @@ class FMU2Checked(_Checked, FMU2Library):  # fmpy takes the version of FMI from 
         self.fmi2SetDebugLogging(self.component, False, 0, None)
 
     def discard(self, component: int) -> None:
-        """Free a component."""
         self.fmi2FreeInstance(component)
 
 
@@ -125,7 +123,6 @@ class FMU3Checked(_Checked, FMU3Slave):  # fmpy takes the version of FMI from th
 
     @staticmethod
     def spelt(method: str) -> str:
-        """Return fmpy's name of a method."""
         return method
 
     @staticmethod
@@ -178,7 +175,6 @@ class FMU3Checked(_Checked, FMU3Slave):  # fmpy takes the version of FMI from th
         self.fmi3SetDebugLogging(self.component, False, 0, None)
 
     def discard(self, component: int) -> None:
-        """Free a component."""
         self.fmi3FreeInstance(component)
 
 

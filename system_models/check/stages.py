@@ -1,7 +1,6 @@
 """A process in which an FMU is run: python -m system_models.check.stages FOLDER STAGE NOTEBOOK START.
 
-A stage writes its answer to NOTEBOOK/STAGE.json; one without an answer has left files there for the next, which runs in
-a new process.
+A stage writes its answer to NOTEBOOK/STAGE.json, or leaves files there for the next, in a new process.
 """
 
 import ctypes

@@ -20,7 +20,6 @@
     check       check: verdicts on an FMU
     cosim       cosim: a system of FMUs
     docs        docs: the pages of the documentation
-    completion  completion: a script for the shell
     pages       names of the pages of the documentation, the one that explains an error
     scenes      the scene and duty that commands are given
     listener    prints what runs tell

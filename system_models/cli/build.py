@@ -8,7 +8,6 @@ from .scenes import refuse_machine
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     command.add_arguments(parser)
 
 

@@ -10,7 +10,6 @@ from .console import add_settings
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument("fmu", metavar="FILE.fmu", type=Path)
     parser.add_argument("--deep", action="store_true", help="also run the FMU: replay, rollback, input range, ...")
     parser.add_argument(

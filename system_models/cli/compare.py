@@ -8,7 +8,6 @@ from .report import written
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument(
         "folders", metavar="DIR", nargs="+", type=Path, help="folders of the results of `tribofmu run`, 2 to 7"
     )

@@ -46,7 +46,6 @@ def tell_replaced(arguments: argparse.Namespace, keys: Mapping[str, str]) -> Non
 
 
 def _assignment(text: str) -> tuple[str, str]:
-    """Return key and value of KEY=VALUE."""
     key, equals, value = text.partition("=")
     if not key or not equals:
         raise argparse.ArgumentTypeError(f"'{text}' is not KEY=VALUE, such as tribofilm.model=none")
@@ -59,5 +58,4 @@ def output_folder(out: str | None, name: str) -> Path:
 
 
 def folder_of(out: str | None, name: str) -> Path:
-    """Return the folder of --out, or results/NAME."""
     return Path(out or Path("results") / name)

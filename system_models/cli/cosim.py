@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     text = "FMUs, their connections and options of the simulation"
     parser.add_argument("system", metavar="SYSTEM.toml", type=Path, help=text)
     parser.add_argument("--out", metavar="DIR", help="folder of the results (default: results/SYSTEM)")

@@ -9,7 +9,6 @@ from . import pages
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument("page", metavar="PAGE", nargs="?", help="name of a page, such as scenes (default: list them)")
 
 

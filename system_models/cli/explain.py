@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument(
         "scene", metavar="NAME", help="a shipped scene or machine (`tribofmu list`), or the path of a .toml file"
     )

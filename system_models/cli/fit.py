@@ -25,7 +25,6 @@ _NAME = re.compile(r"[A-Za-z0-9_-]+$")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument(
         "data",
         metavar="DATA.csv",

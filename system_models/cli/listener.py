@@ -18,7 +18,6 @@ class Console(Listener):
         print(*lines, sep="\n", flush=True)
 
     def note(self, sentence: str) -> None:
-        """Print a sentence that is no result on stderr."""
         note(sentence)
 
     def warn(self, sentence: str) -> None:

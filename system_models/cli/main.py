@@ -21,7 +21,6 @@ from . import (
     build,
     check,
     compare,
-    completion,
     cosim,
     docs,
     explain,
@@ -71,7 +70,6 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "check": (check, "give a verdict per rule on any FMU"),
     "cosim": (cosim, "simulate a system of FMUs"),
     "docs": (docs, "list the pages of the documentation, or show one"),
-    "completion": (completion, "print a script with which a shell completes all this"),
 }
 
 # why a system refuses to write: no room, or no right
@@ -89,8 +87,8 @@ _REFUSED = {
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
-    parser = _parser()
-    arguments, unknown = parser.parse_known_args(argv, argparse.Namespace(parser=parser))
+    parser = parser_of_all()
+    arguments, unknown = parser.parse_known_args(argv)
     if "command" not in arguments and not unknown:
         parser.print_help(sys.stderr)
         return 2
@@ -135,7 +133,7 @@ class _Parser(argparse.ArgumentParser):
         super().error(message)
 
 
-def _parser() -> argparse.ArgumentParser:
+def parser_of_all() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="tribofmu",
         description="Contacts with mixed lubrication, tribofilm and wear: run them, build FMUs of them, check and "

@@ -21,7 +21,6 @@ _SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument("scene", metavar="NAME", help="a shipped scene (`tribofmu list`), or the path of a .toml file")
     parser.add_argument("--out", metavar="DIR", help="folder of map, histories and report (default: results/NAME)")
     parser.add_argument(

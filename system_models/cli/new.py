@@ -15,7 +15,6 @@ _NAME = re.compile(r"[\w-]+")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument("name", metavar="NAME", help="name of the scene: NAME.toml is written into the working folder")
     parser.add_argument(
         "--like",

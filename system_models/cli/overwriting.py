@@ -10,7 +10,6 @@ from contact_core.errors import ContactError
 def add_force(
     parser: Any, text: str = "compute numbers that look like mistakes, and replace the result of another scene"
 ) -> None:
-    """Add the argument --force."""
     parser.add_argument("--force", action="store_true", help=text)
 
 

@@ -1,7 +1,6 @@
 """Pages of the documentation: their names, and the one that explains an error.
 
-An installed package has them in `system_models/docs`, a checkout in `docs`. A page is named after its file, one of
-measurements by its path: `scenes`, `measured/film`.
+A page is named after its file, one of measurements by its path: `scenes`, `measured/film`.
 """
 
 import re
@@ -72,7 +71,6 @@ def name_of(path: str) -> str:
 
 
 def title(text: str) -> str:
-    """Return the title of a page."""
     return text.partition("\n")[0].removeprefix("# ").replace("`", "")
 
 

@@ -13,7 +13,6 @@ _MADE = "Made by tribofmu."  # in the foot of a page
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument(
         "folder", metavar="DIR", type=Path, help="folder of the results of `tribofmu run`, such as results/mtm_zddp"
     )

@@ -13,7 +13,6 @@ from .scenes import add_scene, members
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     add_scene(parser, "scene or machine")
     parser.add_argument(
         "--resume",

@@ -16,7 +16,6 @@ _FORMS = ("none", "plane", "curvature")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument(
         "files",
         metavar="FILE",

@@ -10,7 +10,6 @@ from .scenes import microroughness, tell_assumed, warn
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument("scene", metavar="NAME", help="a shipped name (`tribofmu list`), or the path of a .toml file")
     parser.add_argument("--grid", metavar="N", help="nodes along x and y: replaces film.points")
     add_settings(parser, "change values of the scene, e.g. surface_1.heights.file=patch.npy")

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument("scene", metavar="NAME", help="a shipped scene (`tribofmu list`), or the path of a .toml file")
     parser.add_argument(
         "--vary",

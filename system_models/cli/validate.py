@@ -11,7 +11,6 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of the command."""
     parser.add_argument("names", metavar="NAME", nargs="*", help="comparisons to run (default: all, in minutes)")
     parser.add_argument("--list", dest="listed", action="store_true", help="name the comparisons and their sources")
     parser.add_argument("--out", metavar="DIR", help="folder of page and picture (default: results/validation)")

@@ -6,9 +6,6 @@
     trust       range of validity, stated errors, and how to see more of them
     wording     values in units people read
     terminal    an explanation as text
-    collection  the equations of every law, film and shape, as a page of docs
-    formulas    those of closed forms and machines, from docstrings
-    latex       equations as LaTeX
 
 Laws carry their equations, symbols and sources themselves; comments in files carry the sources of numbers
 (`contact_core.scene.origins`).

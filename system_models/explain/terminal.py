@@ -4,7 +4,7 @@ import re
 import textwrap
 from collections.abc import Iterator, Sequence
 
-from contact_core.laws.symbols import BESIDE, COMMON, Symbol
+from contact_core.laws.symbols import BESIDE, Symbol, common
 from contact_core.scene.origins import Kind, Origin
 
 from .model import Absent, Explanation, Part, Section, Value
@@ -110,13 +110,13 @@ def _equations(part: Part, width: int, sources: Sources) -> Iterator[str]:
             yield f"      {sources.cited(shown.source)}"
     if part.note:
         yield from _wrapped(readable(part.note), width, "    ", "    ")
-    own = [_symbol(s) for s in part.symbols if (not s.field and s.symbol not in COMMON) or _differs(s)]
+    own = [_symbol(s) for s in part.symbols if (not s.field and s.symbol not in common()) or _differs(s)]
     if own:
         yield from _wrapped(f"with {'; '.join(own)}", width, "    ", "      ")
 
 
 def _differs(symbol: Symbol) -> bool:
-    return not symbol.field and symbol.symbol in COMMON and COMMON[symbol.symbol] != (symbol.unit, symbol.text)
+    return not symbol.field and symbol.symbol in common() and common()[symbol.symbol] != (symbol.unit, symbol.text)
 
 
 def _symbol(symbol: Symbol) -> str:
@@ -191,6 +191,6 @@ def _assumed(rows: Sequence[tuple[str, ...]], width: int) -> Iterator[str]:
 def _common(explanation: Explanation, width: int) -> Iterator[str]:
     parts = [part for section in explanation.sections for part in section.parts]
     used = {
-        s.symbol: s for part in parts for s in part.symbols if not s.field and not _differs(s) and s.symbol in COMMON
+        s.symbol: s for part in parts for s in part.symbols if not s.field and not _differs(s) and s.symbol in common()
     }
-    yield from _wrapped("; ".join(_symbol(used[symbol]) for symbol in COMMON if symbol in used), width, "  ", "  ")
+    yield from _wrapped("; ".join(_symbol(used[symbol]) for symbol in common() if symbol in used), width, "  ", "  ")

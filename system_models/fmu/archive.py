@@ -32,7 +32,6 @@ class Archive:
 
     @property
     def names(self) -> list[str]:
-        """The files in the archive."""
         return [info.filename for info in self.infos if not info.filename.endswith("/")]
 
     def size(self, name: str) -> int:
@@ -59,7 +58,6 @@ class Archive:
             return parsed(data)
 
     def unpack(self, folder: str | Path) -> None:
-        """Unpack it into a folder."""
         if reason := self.unfit():
             raise FmuError(f"'{self.path}' is not fit to be unpacked: {reason} Export the FMU again.")
         try:
@@ -116,7 +114,6 @@ class Archive:
 
 @contextmanager
 def opened(path: Path) -> Iterator[Archive]:
-    """Open the archive of an FMU."""
     try:
         archive = zipfile.ZipFile(path)
     except OSError as error:

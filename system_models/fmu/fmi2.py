@@ -65,7 +65,6 @@ class Fmi2Instance(Instance):
         self._fmu.fmi2SetRealInputDerivatives(self._component, references, count, orders, buffer)
 
     def set_inputs(self) -> None:
-        """Give the FMU the values of `inputs`."""
         self._fmu.fmi2SetReal(self._component, self.inputs.references, self.inputs.count, self.inputs.buffer)
 
     def _get_outputs(self) -> None:
@@ -93,39 +92,31 @@ class Fmi2Instance(Instance):
             return otherwise
 
     def get(self, variable: ModelVariable) -> Any:
-        """Return the value of a variable of any type."""
         getter = getattr(self._fmu, _FMI2_NAMES[kind(variable)].format("get"))
         value = getter([variable.valueReference])[0]
         return bool(value) if kind(variable) == "boolean" else value.decode() if isinstance(value, bytes) else value
 
     def set(self, variable: ModelVariable, value: Any) -> None:
-        """Set a variable of any type."""
         getattr(self._fmu, _FMI2_NAMES[kind(variable)].format("set"))([variable.valueReference], [value])
 
     def enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
-        """Go from the start values to the initialisation."""
         self._fmu.setupExperiment(tolerance=tolerance, startTime=time, stopTime=stop)
         self._fmu.enterInitializationMode()
 
     def exit_initialization(self) -> None:
-        """Go from the initialisation to the first step."""
         self._fmu.exitInitializationMode()
 
     def save(self) -> Any:
-        """Return the FMU's state, to be given to `restore` any number of times and to `release` once."""
         return self._fmu.getFMUstate()
 
     def restore(self, state: Any) -> None:
-        """Go back to a state."""
         self._fmu.fmi2SetFMUstate(self._component, state)
         self.terminated = False
 
     def release(self, state: Any) -> None:
-        """Free a state."""
         self._fmu.fmi2FreeFMUstate(self._component, byref(state))
 
     def serialised(self) -> bytes:
-        """Return the FMU's state as bytes."""
         state = self.save()
         try:
             return bytes(self._fmu.serializeFMUstate(state))
@@ -133,13 +124,11 @@ class Fmi2Instance(Instance):
             self.release(state)
 
     def deserialise(self, data: bytes) -> None:
-        """Go to a state that `serialised` gave, also in another process."""
         state = self._fmu.deSerializeFMUstate(data)
         self.restore(state)
         self.release(state)
 
     def free(self) -> None:
-        """End the instance, whatever state it is in."""
         self._fmu.freeInstance()
 
 

@@ -1,7 +1,6 @@
 """Messages of FMUs go to `logging`.
 
-The library by which fmpy formats the messages of FMI 2.0 holds one logger for the whole process, the last that it was
-given, and calls it for every FMU. So there is one logger, which is never freed, and an FMU is known by its name.
+fmpy's library for messages of FMI 2.0 holds one logger for the whole process: there is one, and it is never freed.
 """
 
 import logging
@@ -37,7 +36,6 @@ def cause(name: str, says: str = "It says") -> str:
 
 
 def callbacks() -> fmi2CallbackFunctions:
-    """Return the callback functions for an instance."""
     functions = fmi2CallbackFunctions()
     functions.logger = _LOGGER
     functions.allocateMemory = defaultCallbacks.allocateMemory

@@ -138,7 +138,6 @@ def _told(runs: Sequence[Run]) -> str:
 
 
 def page(runs: Sequence[Run]) -> str:
-    """Return the page that compares runs."""
     shared = _shared(runs)
     body = _ends(runs, shared) + _differences(runs) + _charts(runs, shared)
     return dressed(f"Compared: {', '.join(names(runs))}", "Comparison of runs", body)

@@ -38,7 +38,6 @@ _WORST = 8  # errors of the coupling listed
 
 
 def sections(run: Run) -> str:
-    """Return the section."""
     words = paragraph(
         "A half width is that of a 95 % interval: with the causes named here, the true answer of the model lies within "
         "it in 19 of 20 cases. Causes count as independent: their squares add up. What the model leaves out is not "
@@ -125,7 +124,6 @@ def _causes_in_words(used: list[str]) -> str:
 
 
 def _bar(parts: list[tuple[str, float]]) -> str:
-    """Return a bar of shares."""
     total = sum(share for _, share in parts) or 1.0
     pieces = "".join(
         f'<span class="part part-{k}" style="width:{100.0 * share / total:.1f}%" '

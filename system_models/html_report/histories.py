@@ -24,7 +24,6 @@ _LEFT_OUT = ("valid", "time", "step_size", "iterations", "residual", "error")
 
 
 def sections(run: Run) -> str:
-    """Return the section of histories."""
     shaded = invalid(run)
     if run.of_contact:
         main, more, duty = (

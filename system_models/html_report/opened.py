@@ -64,7 +64,6 @@ class Run:
 
     @property
     def title(self) -> str:
-        """One line on what was run."""
         return str(self.dataset.attrs.get("title") or self.folder.name)
 
     @property
@@ -74,7 +73,6 @@ class Run:
 
     @property
     def of_contact(self) -> bool:
-        """True if the run is one contact's."""
         return bool(self.scene_table)
 
     @property
@@ -92,7 +90,6 @@ class Run:
         return self.dataset[list(own)].rename(own) if contact else self.dataset
 
     def of(self, contact: str, quantity: str) -> str:
-        """Return the name of a contact's variable."""
         return f"{contact}.{quantity}" if contact else quantity
 
 

@@ -15,7 +15,6 @@ _PACKAGES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "fmpy")
 
 
 def sections(run: Run) -> str:
-    """Return the section."""
     return section("origin", "Versions and digests", *_digests(run), *_versions(run), *_again(run))
 
 

@@ -17,7 +17,6 @@ from .opened import Run
 
 
 def sections(run: Run) -> str:
-    """Return both sections."""
     if run.machine:
         return _of_machine(run)
     if not run.of_contact:

@@ -27,7 +27,6 @@ _TITLES = {
 
 
 def summary(run: Run) -> str:
-    """Return the section."""
     body = _cards(run) if run.of_contact else _of_contacts(run)
     return section("summary", "At a glance", _span(run), _conditions(run), body, _verdict(run))
 
@@ -85,7 +84,6 @@ def _unit(value: float, unit: Unit) -> str:
 
 
 def _cards(run: Run) -> str:
-    """Return the end values as cards."""
     cards = []
     for panel in MAIN:
         lines = [

@@ -1,85 +1,21 @@
-"""Columns of the text logs of test rigs: which is which quantity, in which unit.
-
-No specification of these exports is public. The names are those of exports of PCS Instruments' MTM, ETM and EHD rigs
-that users have published, such as the test data of the Python package `tribology` (M. Ploss, 2019, MIT licence):
-"Rolling Speed (mm/s)", "Average Film (nm)", "Traction Coeff (-)", "Lube Temp (°C)", "Pot RTD Temp (degC)". Users add
-others.
-"""
+"""Columns of the text logs of test rigs: which is which quantity, in which unit, by log_columns.toml."""
 
 import itertools
 import re
+import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from importlib.resources import files
+from typing import Any
 
 from contact_core.errors import ContactError, did_you_mean
 from contact_core.quantities import TABLE, measured_range
 from contact_core.scene import units
 
-# beside the inputs and outputs of a contact: what a rig says about speeds. Those of ball and disc, which have no unit
-# in exports, tell which body is faster
-OF_RIGS = {
-    "time": "s", "rolling_speed": "m/s", "sliding_speed": "m/s", "srr": "1", "ball_speed": "1", "disc_speed": "1"
-}  # fmt: skip
-
-# least and largest value of these; of ball and disc speeds, which have no unit, only the signs matter
-_OF_RIGS = {
-    "time": (0.0, 1e9), "rolling_speed": (-100.0, 100.0), "sliding_speed": (-200.0, 200.0), "srr": (-100.0, 100.0),
-    "ball_speed": (-1e9, 1e9), "disc_speed": (-1e9, 1e9),
-}  # fmt: skip
-
-# name of a column in small letters: its quantity. Where two name one quantity, the first of this list is taken
-NAMES = {
-    "step time": "time",
-    "time": "time",
-    "test time": "time",
-    "elapsed time": "time",
-    "ball load": "load",
-    "load": "load",
-    "normal load": "load",
-    "applied load": "load",
-    "pin load": "load",
-    "rolling speed": "rolling_speed",
-    "mean speed": "rolling_speed",
-    "entrainment speed": "rolling_speed",
-    "sliding speed": "sliding_speed",
-    "ball speed 1": "ball_speed",
-    "disc speed 1": "disc_speed",
-    "srr": "srr",
-    "slide roll ratio": "srr",
-    "slide-roll ratio": "srr",
-    "slide-to-roll ratio": "srr",
-    "traction coeff": "friction_coefficient",
-    "traction coefficient": "friction_coefficient",
-    "friction coeff": "friction_coefficient",
-    "friction coefficient": "friction_coefficient",
-    "lube temp": "temperature",
-    "lubricant temp": "temperature",
-    "lube rtd temp": "temperature",
-    "oil temp": "temperature",
-    "pot temp": "temperature",
-    "pot rtd temp": "temperature",
-    "temperature": "temperature",
-    "average film": "h_c",
-    "film thickness": "h_c",
-    "central film": "h_c",
-    "film": "h_c",
-}
-# columns that are known and not taken, and why
-NOT_TAKEN = {
-    "speed": "it may be of rolling, sliding, the ball or the disc",
-    "ball speed": "rolling speed and slide-to-roll ratio say it; else name it as speed_1",
-    "disc speed": "rolling speed and slide-to-roll ratio say it; else name it as speed_2",
-    "traction force": "the coefficient says it, without a sign of its own",
-    r"tf\d": "the coefficient says it, without a sign of its own",
-    "friction force": "the coefficient says it, without a sign of its own",
-    "wear": "it is the approach of both bodies, by wear of either, films and heat; name it as wear_depth_1 or "
-    "wear_depth_2 if one alone wears",
-    "ecr": "the contact has no such output; it is not the share of the load that solids carry",
-    "rolling (force|coeff)": "the friction coefficient here is of sliding, by the traction force",
-    "standard deviation": "it is of the average beside it",
-    "disc frequency|traction trace|sd repeat number|user repeat number": "it is of the rig, not of the contact",
-    "order|lube ref index|average wavelength|image file name": "it is of the interferometer, not of the contact",
-}
+_TABLES = tomllib.loads((files(__package__) / "log_columns.toml").read_text("utf-8"))
+OF_RIGS: dict[str, dict[str, Any]] = _TABLES["of_rigs"]
+_NAMES: dict[str, str] = {name: quantity for quantity, names in _TABLES["names"].items() for name in names}
+_NOT_TAKEN: dict[str, str] = _TABLES["not_taken"]
 
 _HEADER = re.compile(r"\s*(.*?)\s*(?:[\[(]([^\[\]()]*)[\])])?\s*$")
 _NAMED = re.compile(r"\s*(\w*)\s*(?:\[([^\]]*)\])?\s*$")
@@ -98,16 +34,20 @@ class Column:
     @property
     def limits(self) -> tuple[float, float]:
         """Least and largest value in SI that can have been measured."""
-        return _OF_RIGS.get(self.quantity) or measured_range(TABLE[self.quantity])
+        rig = OF_RIGS.get(self.quantity)
+        return (rig["least"], rig["largest"]) if rig else measured_range(TABLE[self.quantity])
 
     @property
     def si(self) -> str:
         """Unit in SI of the quantity."""
-        return OF_RIGS.get(self.quantity) or TABLE[self.quantity].unit
+        return _unit(self.quantity)
 
     def value(self, number: float) -> float:
-        """Return a number of the column in SI."""
         return units.parse(f"{number!r} {self.unit}", "" if self.si == "1" else self.si, f"'{self.header}'")
+
+
+def _unit(quantity: str) -> str:
+    return str(OF_RIGS[quantity]["unit"]) if quantity in OF_RIGS else TABLE[quantity].unit
 
 
 def named(texts: Sequence[str]) -> dict[str, tuple[str, str | None]]:
@@ -142,13 +82,13 @@ def taken(
     `names` are those of `named`; `filled` says which columns have numbers: exports repeat columns and leave some empty.
     Raises ContactError for a unit that is not said or cannot be that of the quantity.
     """
-    rank = {name: i for i, name in enumerate(NAMES)}
+    rank = {name: i for i, name in enumerate(_NAMES)}
     best: dict[str, tuple[int, int]] = {}  # of each quantity: rank and place
     told: list[tuple[str, str | None]] = []
     for i, header in enumerate(headers):
         name, unit = _parts(header)
         own = names.get(" ".join(header.split()).lower(), names.get(name))
-        told.append((NAMES.get(name, ""), unit) if own is None else (own[0], own[1] if own[1] is not None else unit))
+        told.append((_NAMES.get(name, ""), unit) if own is None else (own[0], own[1] if own[1] is not None else unit))
         quantity = told[-1][0]
         if quantity and filled[i]:
             best[quantity] = min(best.get(quantity, (len(rank), i)), (-1 if own else rank[name], i))
@@ -190,7 +130,7 @@ def known(cells: Sequence[str], names: Mapping[str, tuple[str, str | None]]) -> 
     """Return whether cells are a header: none a number, and one at least the name of a column."""
     found = [_parts(cell)[0] for cell in cells]
     whole = [" ".join(cell.split()).lower() for cell in cells]
-    return any(name in NAMES or name in names or all_ in names for name, all_ in zip(found, whole, strict=True))
+    return any(name in _NAMES or name in names or all_ in names for name, all_ in zip(found, whole, strict=True))
 
 
 def _parts(header: str) -> tuple[str, str | None]:
@@ -204,7 +144,7 @@ def _column(header: str, quantity: str, unit: str | None) -> Column:
     if unit is None and quantity in _NUMBERS:
         unit = "1"
     if unit is None or not unit.strip():
-        example = "%" if quantity == "srr" else OF_RIGS.get(quantity) or TABLE[quantity].unit
+        example = "%" if quantity == "srr" else _unit(quantity)
         raise ContactError(
             f"Column '{header.strip()}' does not say its unit. Give it by --column '{header.strip()}={quantity} "
             f"[{example}]', or leave the column out by --column '{header.strip()}='."
@@ -232,5 +172,5 @@ def _why(
         return f"'{headers[best[quantity][1]].strip()}' is taken for {quantity}"
     if name in names or " ".join(header.split()).lower() in names:
         return "left out by --column"
-    reason = next((why for known, why in NOT_TAKEN.items() if re.match(rf"{known}( \d)?$", name)), "")
+    reason = next((why for known, why in _NOT_TAKEN.items() if re.match(rf"{known}( \d)?$", name)), "")
     return reason or f"not known; name it by --column '{header.strip()}=QUANTITY'"

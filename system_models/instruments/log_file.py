@@ -1,12 +1,7 @@
 """Reads the steps of a test rig's text log: tables of numbers between lines of text.
 
-    Step 1 "rub" started at 10:00:00
-    Step Time (s)  Rolling Speed (mm/s)  SRR (%)  Traction Coeff (-)
-    0              100.1                 50.0     0.081
-
-A table begins with a line in which a column is known and ends with the headers of another one or the title of a step;
-other lines within it are passed over and counted. Cells are apart by tabs, semicolons or commas. A line
-"Step type	FILM	..." says what a step is.
+A table begins with a line in which a column is known and ends with other headers or the title of a step, such as
+Step 1 "rub" started at 10:00:00; other lines are counted. Cells are apart by tabs, semicolons or commas.
 """
 
 import math
@@ -40,7 +35,6 @@ class Step:
     kind: str = ""  # as the log has it, such as FILM, Traction or BOD_TIMED
 
     def has(self, quantity: str) -> bool:
-        """Return whether a quantity is in the table."""
         return any(column is not None and column.quantity == quantity for column in self.columns)
 
 

@@ -1,7 +1,6 @@
-"""A duty for `tribofmu run` and data for `tribofmu fit` from a log of a test rig.
+"""A duty for `tribofmu run` and data for `tribofmu fit` from a log of a test rig. Body 1 is the ball, body 2 the disc.
 
-Body 1 is the ball, body 2 the disc. Steps follow one another without a pause. An input that a step holds, but for
-scatter, has its mean there: each value of its own would be another operating point, to be solved.
+Steps follow one another without a pause. An input that a step holds, but for scatter, has its mean there.
 """
 
 import csv

@@ -1,8 +1,7 @@
 """A measured image made ready for a scene: form removed, gaps filled, waves cut, on a square lattice.
 
-Waves are cut sharply, in the cosine series of the image and its mirror images, which `beyond = "mirrored"` continues.
-So no wave is both in the patch and in the roughness below it, and their variances add up to that of the image; the
-Gaussian filters of ISO 16610-61, half of whose waves pass at the cut-off, would count some twice.
+Waves are cut sharply, in the cosine series of the image and its mirror images: no wave is both in the patch and in the
+roughness below it, as with the Gaussian filters of ISO 16610-61, half of whose waves pass at the cut-off.
 """
 
 import math

@@ -1,8 +1,7 @@
 """Heights in text that no reader of SurfaceTopography takes: a matrix of numbers, or points with gaps among them.
 
-A matrix has a row of numbers in each line, x along the rows; points have x, y and z in each line, on a lattice along x
-and y that need not be full. Cells are apart by tabs, semicolons, commas or spaces; decimals may have commas where these
-do not part the cells. A cell without a number is a point without a height.
+A matrix has x along its rows; points have x, y and z in each line, on a lattice. Cells are apart by tabs, semicolons,
+commas or spaces; a cell without a number is a point without a height.
 """
 
 import math

@@ -1,12 +1,7 @@
 """What the assumptions of a machine are worth: half widths of its results by the intervals of what it assumes.
 
-    [intervals]  # of a machine's file; a key that leads through a list holds for each of its items, one by one
-    "contact.surface_1.rq" = ["-50 %", "+100 %"]
-    "housing.links.conductance" = ["-50 %", "+100 %"]
-
-To them come those of the scene of its contacts. A whole run for each end would take too long. Each goes through one
-state of the duty: that which lasts long under much load and speed, with all temperatures as they settle in it, and new
-surfaces at the regression level. What matters on the way there only, as heat capacities and inertias, is worth nothing.
+Each end goes, with those of the contacts' scene, through one state of the duty at the regression level: that which
+lasts long under much load and speed, with temperatures settled in it and new surfaces.
 """
 
 import json

@@ -1,7 +1,6 @@
 """A machine's run corrected by the states that are solved again: friction, film and W_c of all its contacts.
 
-The run stays as it is: its components have seen the regression level's friction. The method is that of
-`contact_core.corrections.kriging`. A state that judges never conditions: each is judged by the others.
+The run itself has not seen it. Method: `contact_core.corrections.kriging`; each state is judged by the others.
 """
 
 import math

@@ -1,9 +1,7 @@
 """The coupling error: the change of the recorded outputs with steps of double size.
 
-The coarser simulation has every second communication point of the result. Of first order, as all machines are, it has
-twice the error; hence the difference is the error of the finer one. Two step sizes do not show whether they are short
-enough for that, so three times the difference is stated, and no less than a jump of the output itself: finer steps may
-have it in another one.
+Of first order, as all machines are, the coarser simulation has twice the error. Three times the difference is stated,
+as two step sizes do not show whether they are short enough, and no less than a jump of the output itself.
 """
 
 from collections.abc import Mapping

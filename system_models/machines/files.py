@@ -13,7 +13,6 @@ def shipped() -> dict[str, str]:
 
 
 def shipped_files() -> dict[str, Any]:
-    """Return the files of these machines by name."""
     folders = [kind / "shipped" for kind in files(__package__).iterdir() if (kind / "shipped").is_dir()]
     found = [file for folder in folders for file in folder.iterdir() if file.name.endswith(".toml")]
     return {file.name.removesuffix(".toml"): file for file in found}

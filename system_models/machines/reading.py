@@ -1,19 +1,4 @@
-"""Machines from TOML: the kind, its contacts and components, its duty, and how it is simulated.
-
-    kind = "ball_bearing"        # one of `registry.kinds`
-    description = "..."
-
-    [contact]                    # a scene, and changes of it
-    scene = "ball_209_inner"
-    film.model = "regression"
-
-    [drive]                      # the machine's components, by their names: see help of the kind's module
-    [intervals]                  # of what is assumed: see `assumed`
-    [duty]                       # signals against time: see `timeline`
-    [simulate]                   # the arguments of `master.simulate`
-
-Any contact can be deterministic: `deterministic = ["inner_1"]`.
-"""
+"""Machines from TOML: kind, contacts and components, duty, and how they are simulated: docs/how-to/machines.md."""
 
 import json
 import tomllib
@@ -96,7 +81,6 @@ def described(machine: Machine) -> dict[str, str]:
 
 
 def from_attribute(text: str) -> Machine:
-    """Return the machine of a result."""
     parts = json.loads(text)
     return Machine(**{**parts, "folder": Path(parts["folder"])})
 

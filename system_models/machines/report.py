@@ -2,15 +2,34 @@
 
 import json
 from collections import Counter
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 
+from contact_core.kernels.arrays import Array
 from contact_core.quantities import LEVELS
 
 from ..parts.thermal import ThermalNetwork
 from ..run.cosim_report import aligned
 from .assembly import Assembly
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """A machine's run beside its assembly; rows are those of `time`."""
+
+    assembly: Assembly
+    dataset: xr.Dataset
+
+    @property
+    def time(self) -> Array:
+        """Time of the rows [s]."""
+        return self.of("time")
+
+    def of(self, name: str) -> Array:
+        """Return a variable "part.output" by row."""
+        return np.asarray(self.dataset.variables[name].values, dtype=np.float64)
 
 
 def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:

@@ -1,7 +1,6 @@
 """Contacts of a finished run, solved again deterministically, to test the errors of the regression level.
 
-A contact goes once more through the inputs that the run has recorded, at the regression level; at chosen rows its state
-goes to the deterministic level, on its own shape and surfaces.
+A contact goes through the recorded inputs once more; at chosen rows its state goes to the deterministic level.
 """
 
 import math

@@ -1,33 +1,7 @@
-"""The duty of a machine: its signals against time, each held from one change to the next.
+"""The duty of a machine: its signals against time, each held from one change to the next; docs/how-to/machines.md.
 
-Constant, or in steps; signals that a step does not name stay:
-
-    [duty]
-    duration = "20 min"
-    speed = "1500 rpm"           # from the start
-    load = "2 kN"
-
-    [[duty.steps]]
-    time = "10 min"
-    speed = "3000 rpm"
-
-Cycles of running and standing still, in which some signals are zero:
-
-    [duty]
-    speed = "1500 rpm"
-    load = "2 kN"
-    start_stop = { signals = ["speed"], run = "60 s", standstill = "30 s" }
-    repeat = 100
-
-From a table with a column of time and one for each signal, see `duty_table`; the time of its last row is the end, if
-no duration says otherwise: that row holds where the simulation is longer. Signals without a column are as in [duty]:
-
-    [duty]
-    file = "drive_cycle.csv"
-    load = "2 kN"
-    repeat = 2
-
-`repeat` does all of it again. Which signals there are is up to the machine.
+Constant, in steps (signals that a step does not name stay), in cycles of running and standing still, or from a table,
+whose last row holds where the simulation is longer. `repeat` does all of it again.
 """
 
 from collections.abc import Iterable, Mapping, Sequence

@@ -53,18 +53,15 @@ class ControlledStepper(Stepper):
         self._may_lag = np.array([coupled.may_lag(place) for place in coupled.wiring.coupled], dtype=bool)
 
     def begin_anew(self) -> None:
-        """Forget the past: after an event it says nothing about the future."""
         super().begin_anew()
         self.control.after_event()
         self.size = min(self.size, self.step_size)
 
     def stored(self) -> dict[str, Any]:
-        """Return all that is needed to continue from now in another process."""
         own = {"size": self.size, "control": self.control.copy(), "lags": self.lags}
         return super().stored() | own
 
     def continue_from(self, memory: Mapping[str, Any]) -> None:
-        """Go to a point that `stored` has returned."""
         super().continue_from(memory)
         self.size, self.lags = memory["size"], memory["lags"]
         self.control.restore(memory["control"])

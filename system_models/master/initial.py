@@ -1,7 +1,6 @@
 """Consistent initial values: each connected input has the value of its source, while the FMUs are being initialised.
 
-The connections are worked through in the order of the initial dependencies. Around a loop there is no such order: it is
-cut at as few connections as a simple rule finds, and the inputs there are solved for.
+Connections are worked through in the order of the initial dependencies; a loop is cut at few and solved for these.
 """
 
 import logging
@@ -157,7 +156,6 @@ class _Loop:
             return np.full(len(values), np.nan)
 
     def _result(self, connection: Connection) -> Any:
-        """Return the value of a connection for its source."""
         instance = self._instances[connection.source.model.name]
         with _named(instance, f"to give '{connection.source.name}'"):
             return connection.result(instance.get(connection.source.variable))

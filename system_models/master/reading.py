@@ -1,26 +1,6 @@
-"""A system and how to simulate it, from TOML.
+"""A system and how to simulate it, from TOML: docs/how-to/cosim.md.
 
-    [fmus]                       # paths, from the folder of this file
-    block = "block.fmu"
-    contact = "contact.fmu"
-
-    [coupling]                   # connections: output, input, factor if it is not 1
-    connections = [["block.v", "contact.speed_1"], ["contact.friction_force", "block.F", -1.0]]
-    events = ["block.gap"]
-    bonds = [["contact.friction_force", "block.v"]]
-    derivatives = [{ of = "contact.friction_force", by = "contact.speed_1", is = "contact.dfriction" }]
-
-    [parameters]                 # or "block.m", or a table [parameters.block]
-    block.m = 1.0
-
-    [schedule]                   # pairs of time and value
-    contact.load = [[0, 10.0], ["5 s", 20.0]]
-
-    [simulate]                   # the arguments of simulate(); times in seconds, or text with a unit
-    stop_time = 10.0
-    step_size = "1 ms"
-
-Every key stands in a table, so the tables can come in any order: in TOML, a key after a table's heading belongs to it.
+Every key stands in a table, so the tables can come in any order: in TOML, a key after a heading belongs to it.
 """
 
 import tomllib

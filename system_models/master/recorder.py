@@ -40,7 +40,6 @@ class Recorder:
         self._statistics = [array("d") for _ in self._extras]
 
     def row(self, size: float, outcome: Outcome, error: float = 0.0) -> Row:
-        """Return the present row."""
         outputs = self._coupled.outputs
         values = [
             outputs[place] if place is not None else self._coupled.get(port)
@@ -50,11 +49,9 @@ class Recorder:
         return self._coupled.time, values, statistics
 
     def start(self) -> Row:
-        """Return the row of the initial values."""
         return self.row(0.0, Outcome(0, 0.0))
 
     def add(self, row: Row) -> None:
-        """Keep a row."""
         time, values, statistics = row
         self._times.append(time)
         for column, value in zip(self._columns, values, strict=True):

@@ -1,7 +1,6 @@
 """Contents of the checkpoint of a simulation: its identity, and the states of all FMUs and of the master as bytes.
 
-These bytes are the length of a JSON header, the header, and the raw memory of arrays and states that it refers to. They
-give back every number bit for bit, and nothing in them is ever executed.
+The bytes are the length of a JSON header, the header, and the raw memory of what it refers to; nothing is executed.
 """
 
 import hashlib

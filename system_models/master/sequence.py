@@ -28,7 +28,6 @@ class Block:
 
     @property
     def names(self) -> list[str]:
-        """Its FMUs."""
         return [name for name, _ in self.sequence]
 
 

@@ -1,15 +1,8 @@
-"""Export of a system as SSP 1.0, the exchange format for systems of FMUs [1].
+"""Export of a system as SSP 1.0 [1]: FMUs, connections with units and factors, parameters and start values.
 
-The file has all that the format can express: FMUs, connections with units and factors, parameters and start values.
-Options of the simulation and observations are left out: algorithm, tolerances, events, power bonds
-and derivatives. Inputs that change by a schedule would change what is simulated, so they are refused.
-
-A step size has no place in SSP 1.0. It is proposed in an annotation of OMSimulator, which reads no file without it [2].
-
-Where a connection converts units, the conversion is written into its transformation, and importers are asked to do none
-(suppressUnitConversion): many of them do none anyway, and would give a wrong result without a word.
-
-FMI 3.0 came after SSP 1.0. Its variables are written with the nearest type; not every importer takes such FMUs.
+Options of the simulation are left out; inputs that change by a schedule are refused. A step size stands in an
+annotation of OMSimulator, which reads no file without it [2]. Conversions of units are written into connections, and
+importers asked to do none: many do none. FMI 3.0 came later: its variables are written with the nearest type.
 
 [1] Modelica Association, System Structure and Parameterization 1.0, 2019, https://ssp-standard.org.
 [2] Open Source Modelica Consortium, OMSimulator, schema/oms.xsd, https://github.com/OpenModelica/OMSimulator.
@@ -186,7 +179,6 @@ def _add_parameters(component: Element, starts: list[tuple[Port, Value]], model:
 
 
 def _written(variable: ModelVariable, value: Value) -> tuple[str, str]:
-    """Return a value's type and text."""
     if variable.type == "Enumeration" and variable.declaredType is not None:
         names = {int(item.value): item.name for item in variable.declaredType.items or ()}
         return ("Enumeration", names[int(value)]) if value in names else ("Integer", repr(value))

@@ -32,7 +32,6 @@ class Port:
 
     @property
     def name(self) -> str:
-        """Its name in the system."""
         return f"{self.model.name}.{self.variable.name}"
 
     @property

@@ -1,7 +1,6 @@
 """Outputs of the running step that the FMUs see: a coupling scheme is one function and one entry of `ALGORITHMS`.
 
-A scheme returns, from the FMUs that have made the step so far in the sequence, those whose new outputs the next one
-sees. The outputs of all others are known at the beginning of the step only.
+It returns, from the FMUs that have made the step so far, those whose new outputs the next one sees.
 """
 
 from collections.abc import Callable, Sequence

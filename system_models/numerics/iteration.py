@@ -1,10 +1,7 @@
 """Iterations that solve v = G(v) for the coupled values v [size] of one communication step.
 
-The caller evaluates G, decides by the norm of G(v) - v over the allowed errors `scale` [size] when to stop, and asks a
-method only for the next v. The memory of accepted steps is restored with the states when a step is repeated,
-so that a result depends on the accepted past alone.
-
-Source: Küttler & Wall, Comput. Mech. 43 (2008) 61, doi:10.1007/s00466-008-0255-5 (Aitken's relaxation of vectors).
+The caller evaluates G and decides when to stop; a method gives the next v. The memory of accepted steps is restored
+with the states. Source: Küttler & Wall, Comput. Mech. 43 (2008) 61, doi:10.1007/s00466-008-0255-5 (Aitken).
 """
 
 import math

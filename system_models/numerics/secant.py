@@ -65,7 +65,6 @@ class Secant:
             self.slope = Point(value, residual, self.slope).beside(end).slope
 
     def next(self, value: float, residual: float) -> float:
-        """Return the next value to try."""
         if residual == 0.0:
             return value
         if not math.isfinite(residual):

@@ -23,7 +23,6 @@ class Brake(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """The torque wanted, and the speed that it brakes."""
         return (
             Input("torque_setpoint", "M_s", "N m", "braking torque to reach", nominal=10.0, minimum=0.0),
             Input("speed", "w", "rad/s", "angular speed of the shaft", nominal=100.0, display="rpm"),
@@ -31,7 +30,6 @@ class Brake(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Torque, its derivative, and power."""
         by = ("speed",)
         return (
             Output(
@@ -45,7 +43,6 @@ class Brake(Part):
 
     @property
     def at_start(self) -> tuple[str, ...]:
-        """Inputs that decide the first state."""
         return ("torque_setpoint",)
 
     def initial(self, inputs: Values) -> State:
@@ -53,12 +50,10 @@ class Brake(Part):
         return (inputs["torque_setpoint"],)
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Return the exact state after the step."""
         (strength,) = state
         return (strength - (inputs["torque_setpoint"] - strength) * math.expm1(-step / self.rise_time),)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return the torque at the speed there is, its power and its derivative."""
         (strength,) = state
         share = math.tanh(inputs["speed"] / self.standstill_speed)
         return {

@@ -26,7 +26,6 @@ class LoadArm(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """The load wanted beside the dead weight."""
         return (
             Input(
                 "load_setpoint",
@@ -41,12 +40,10 @@ class LoadArm(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """The load."""
         return (Output("load", "W", "N", "load on the contact", nominal=50.0, minimum=0.0),)
 
     @property
     def at_start(self) -> tuple[str, ...]:
-        """Inputs that decide the first state."""
         return ("load_setpoint",)
 
     def initial(self, inputs: Values) -> State:
@@ -54,10 +51,8 @@ class LoadArm(Part):
         return (inputs["load_setpoint"], 0.0)
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Return the exact state after the step."""
         f, damping = self.natural_frequency, 2.0 * self.damping_ratio * self.natural_frequency
         return linear.advance(((0.0, f), (-f, -damping)), ((0.0,), (f,)), state, (inputs["load_setpoint"],), step)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return the load, never negative."""
         return {"load": max(self.dead_weight + state[0], 0.0)}

@@ -6,9 +6,9 @@
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import Any, ClassVar
 
-from contact_core.quantities import Quantity, Role, parameter
+from contact_core.quantities import TABLE, Quantity, Role, parameter
 
 MACHINES = "tribofmu.machines"  # group of entry points: machines of other packages
 
@@ -93,3 +93,17 @@ def start_values(part: Part) -> dict[str, float]:
 def indexed(name: str, number: int) -> str:
     """Return the name of one of several alike, counted from 1: `load[3]`."""
     return f"{name}[{number}]"
+
+
+def of_contact(name: str, variable: str, where: str, nominal: float) -> dict[str, Any]:
+    """Return what describes a component's variable for a quantity of a contact, and `where` this one is."""
+    q = TABLE[name]
+    return {
+        "name": variable,
+        "symbol": q.symbol,
+        "unit": q.unit,
+        "text": f"{q.text}; {where}",
+        "nominal": nominal,
+        "display": q.display,
+        "relative": q.relative,
+    }

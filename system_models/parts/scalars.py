@@ -42,7 +42,6 @@ def exponential(matrix: Array) -> Array:
 
 
 def _next(small: Array, found: Array, share: float) -> Array:
-    """Return 1 + share * small @ found."""
     return np.eye(len(small)) + (small @ found) * share
 
 

@@ -29,7 +29,6 @@ class Shaft(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """Speeds and torques that drive and resist."""
         return (
             Input("torque_drive", "T_d", "N m", "torque that drives: accelerates a positive speed", nominal=10.0),
             Input("speed_drive", "w_d", "rad/s", "speed of the coupling's other end", nominal=100.0, display="rpm"),
@@ -38,7 +37,6 @@ class Shaft(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Motion, and the torque of the coupling."""
         return (
             Output("speed", "w", "rad/s", "angular speed", nominal=100.0, display="rpm"),
             Output("revolutions", "N", "1", "revolutions since the start, backward ones negative", nominal=1e3),
@@ -86,7 +84,6 @@ class Shaft(Part):
         return linear.advance(matrix, ((1.0 / self.inertia,), (0.0,)), state, (torque,), step)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return speed, revolutions and torque of the coupling."""
         speed, angle = state
         torque = self.coupling * (inputs["speed_drive"] - speed)
         return {"speed": speed, "revolutions": angle / (2.0 * math.pi), "torque_coupling": torque}

@@ -22,7 +22,6 @@ class SpeedSource(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """The speed wanted and the torque that it takes."""
         return (
             Input("speed_setpoint", "w_s", "rad/s", "speed to reach and hold", nominal=100.0, display="rpm"),
             Input("torque", "T", "N m", "torque that is taken from the motor", nominal=10.0),
@@ -30,7 +29,6 @@ class SpeedSource(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Speed and power."""
         return (
             Output("speed", "w", "rad/s", "speed of the motor", nominal=100.0, display="rpm"),
             Output(
@@ -53,7 +51,6 @@ class SpeedSource(Part):
 
     @property
     def at_start(self) -> tuple[str, ...]:
-        """Inputs that decide the first state."""
         return ("speed_setpoint",)
 
     def initial(self, inputs: Values) -> State:
@@ -61,7 +58,6 @@ class SpeedSource(Part):
         return (inputs["speed_setpoint"],)
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Return the exact state after the step."""
         (speed,) = state
         change = inputs["speed_setpoint"] - speed
         if abs(change) <= self.ramp * step:
@@ -69,6 +65,5 @@ class SpeedSource(Part):
         return (speed + math.copysign(self.ramp * step, change),)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return speed, and power at the torque there is."""
         (speed,) = state
         return {"speed": speed, "power": inputs["torque"] * speed}

@@ -29,7 +29,6 @@ class Spindle(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """Speed setpoint, and forces of the contact on the body."""
         return (
             Input("surface_speed_setpoint", "u_s", "m/s", "surface speed to hold", minimum=-100.0, maximum=100.0),
             Input("friction_force", "F", "N", "friction force on body 1 of the contact"),
@@ -38,7 +37,6 @@ class Spindle(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Surface speed, torque and power of the motor."""
         by = ("surface_speed_setpoint",)
         return (
             Output("surface_speed", "u", "m/s", "surface speed of the body at the contact"),
@@ -48,7 +46,6 @@ class Spindle(Part):
 
     @property
     def at_start(self) -> tuple[str, ...]:
-        """Inputs that decide the first state."""
         return ("surface_speed_setpoint", "friction_force", "rolling_resistance")
 
     def initial(self, inputs: Values) -> State:
@@ -57,7 +54,6 @@ class Spindle(Part):
         return (setpoint, setpoint - self._acceleration(inputs) / self.bandwidth)
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Return the exact state after the step."""
         b = self.bandwidth
         setpoint = inputs["surface_speed_setpoint"] / self.radius
         matrix, entry = ((-2.0 * b, b), (-b, 0.0)), ((b, 1.0), (b, 0.0))
@@ -69,7 +65,6 @@ class Spindle(Part):
         return self.radius * (friction - inputs["rolling_resistance"]) / self.inertia
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return surface speed, torque and power."""
         speed, memory = state
         setpoint = inputs["surface_speed_setpoint"] / self.radius
         torque = self.inertia * self.bandwidth * (memory - 2.0 * speed + setpoint)

@@ -14,7 +14,6 @@ from contact_core.errors import SceneError, did_you_mean
 from contact_core.kernels.arrays import Array
 from contact_core.quantities import parameter
 
-from .conduction import Modes
 from .part import Input, Output, Part, State, Values, indexed
 
 Regimes = tuple[int, ...]  # by thermostat: -1 heats and 1 cools as much as it can, 0 is between
@@ -22,6 +21,50 @@ Regimes = tuple[int, ...]  # by thermostat: -1 heats and 1 cools as much as it c
 AMBIENT = "ambient"
 _MOST_CHANGES = 100  # of regime in a step; the rest of the step stays in the last one
 _LOOKS = np.geomspace(1e-6, 1.0, 61)  # shares of a step at which thermostats are looked at
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Modes of n heat capacities joined by conductances: temperatures and their integrals over any step, exact.
+
+    C T' = Q - K T, with K symmetric and without negative eigenvalues. Its modes are those of C^-1/2 K C^-1/2, which are
+    orthogonal, so stiff networks and long steps lose no digits.
+    """
+
+    rates: Array  # [n] 1/s, of decay
+    shapes: Array  # [n, n] T = shapes @ amplitudes
+    inverse: Array  # [n, n] amplitudes = inverse @ T
+    entry: Array  # [n, n] rate of change of the amplitudes = entry @ Q
+
+    @staticmethod
+    def of(capacities: Array, conductances: Array) -> "Modes":
+        """Return the modes of heat capacities C [n] in J/K and the symmetric matrix K [n, n] in W/K."""
+        root = np.sqrt(capacities)
+        rates, vectors = np.linalg.eigh(conductances / np.outer(root, root))
+        return Modes(np.maximum(rates, 0.0), vectors / root[:, None], vectors.T * root, vectors.T / root)
+
+    def after(self, temperatures: Array, heat: Array, time: Array) -> tuple[Array, Array]:
+        """Return temperatures [t, n] in K and their integrals [t, n] in K s after times [t], under held heat [n] in W.
+
+        Temperatures count from that of the surroundings.
+        """
+        start, growth, span = self.inverse @ temperatures, self.entry @ heat, time[:, None]
+        decay, first, second = _decays(span * self.rates)
+        now = decay * start + span * first * growth
+        summed = span * first * start + span**2 * second * growth
+        return now @ self.shapes.T, summed @ self.shapes.T
+
+
+def _decays(x: Array) -> tuple[Array, Array, Array]:
+    """Return exp(-x), its mean over (0, x), and that mean's weighted one, (exp(-x) - 1 + x) / x^2, for x >= 0."""
+    decay = np.exp(-x)
+    safe = np.where(x > 0.0, x, 1.0)
+    first = np.where(x > 0.0, -np.expm1(-x) / safe, 1.0)
+    near = np.minimum(x, 0.5)  # there, the closed form cancels
+    series = np.zeros_like(x)
+    for k in range(14, 1, -1):
+        series = (1.0 - series * near) / k
+    return decay, first, np.where(x < 0.5, series, (1.0 - first) / safe)
 
 
 @dataclass(frozen=True)
@@ -76,7 +119,6 @@ class ThermalNetwork(Part):
     thermostats: tuple[Thermostat, ...] = ()
 
     def check(self) -> None:
-        """Raise SceneError for names that are missing, unknown or useless."""
         for sentence in self._complaints():
             raise SceneError(sentence)
 
@@ -104,7 +146,6 @@ class ThermalNetwork(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """Heat flows, temperature of the surroundings, and setpoints of the thermostats."""
         heats = [(name, node.name) for node in self.nodes for name in node.heats]
         return (
             *(Input(name, "Q", "W", f"heat that comes into '{node}'", nominal=100.0) for name, node in heats),
@@ -117,7 +158,6 @@ class ThermalNetwork(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Temperatures, and where the heat goes."""
         names, ambient = [node.name for node in self.nodes], ("temperature_ambient",)
         return (
             *(
@@ -209,7 +249,6 @@ class ThermalNetwork(Part):
                 yield link.second if link.first == AMBIENT else link.first, link.conductance
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return temperatures, heat flows and energies."""
         temperatures = dict(zip((node.name for node in self.nodes), state, strict=False))
         lost, *given = state[len(self.nodes) :]
         ambient = inputs["temperature_ambient"]

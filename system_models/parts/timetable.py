@@ -36,16 +36,13 @@ class Timetable(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """None."""
         return ()
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """One output for each signal."""
         return tuple(Output(signal.name, "", signal.unit, f"signal {signal.name}") for signal in self.signals)
 
     def initial(self, inputs: Values) -> State:
-        """Return the time."""
         return (0.0,)
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
@@ -53,7 +50,6 @@ class Timetable(Part):
         return (state[0] + step,)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return the values that hold now; a time missed by a billionth through rounding counts as reached."""
         now = state[0] * (1.0 + 1e-9)
         found = {}
         for signal in self.signals:

@@ -29,7 +29,6 @@ ATTRIBUTE = "assumed_json"  # of a result: key, value, where it comes from, kind
 
 
 def attribute(assumed: Sequence[Assumed]) -> dict[str, str]:
-    """Return them as an attribute."""
     return {ATTRIBUTE: json.dumps([list(each) for each in assumed])}
 
 

@@ -1,7 +1,6 @@
 """One contact in a test rig: a system of one FMU, which the master drives through a duty.
 
-The rig prescribes load, speeds and temperature, so nothing flows back and no iteration is needed: the inputs are held
-over each communication step, and the outputs at its end are recorded.
+Nothing flows back: inputs are held over each communication step, and the outputs at its end are recorded.
 """
 
 from collections.abc import Callable, Mapping

@@ -1,8 +1,6 @@
-"""The duty: load, speeds, temperature and radii against time.
+"""The duty: load, speeds, temperature and radii against time, each operating point held to the next one's time.
 
-A duty holds each operating point from its time to the next one's. It is constant (the scene's `[operation]`), has the
-`[[operation.steps]]` of the scene, or is a CSV file (see `duty_table`); an input of the contact without a column keeps
-the scene's value.
+Constant (the scene's `[operation]`), `[[operation.steps]]`, or a CSV file (see `duty_table`).
 """
 
 import bisect

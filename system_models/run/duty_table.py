@@ -1,8 +1,4 @@
-"""Signals against time from a CSV file, of a duty or of measurements.
-
-    time [min],load [N],temperature [degC]
-    0,53.7,80
-    30,53.7,100
+"""Signals against time from a CSV file, of a duty or of measurements, such as time [min],load [N],temperature [degC].
 
 The header names each column with its unit. `time` is needed, starts at 0 and increases. Numbers become SI.
 """

@@ -1,13 +1,7 @@
-"""Measured numbers against time, which the constants of a scene are fitted to.
+"""Measured numbers against time, which the constants of a scene are fitted to: docs/how-to/fit.md.
 
-    time [min],temperature [degC],tribofilm_1 [nm],tribofilm_1_sd [nm],friction_coefficient [1]
-    5,80,41,4,0.118
-    30,80,97,4,
-    5,100,88,4,0.112
-
-A table as `duty_table` reads it, in any order of times; empty cells of measured columns stand for what was not
-measured. Columns are outputs of a contact, each with the standard deviation of its numbers (`_sd`) or without, and
-inputs: rows with the same inputs are of one test, which began with new surfaces at time 0.
+A table as `duty_table` reads it, in any order of times, with empty cells. Columns are outputs, each with the standard
+deviation of its numbers (`_sd`) or without, and inputs: rows with the same inputs are of one test from time 0 on.
 """
 
 import hashlib
@@ -47,7 +41,6 @@ class Measured:
     digest: str  # of its bytes
 
     def __len__(self) -> int:
-        """Return the number of measured numbers."""
         return len(self.value)
 
     @property

@@ -102,7 +102,6 @@ def people_read(quantity: str) -> tuple[str, float]:
 
 
 def record(fit: Fit) -> dict[str, Any]:
-    """Return all of a fit as JSON has it."""
     return {
         **_origin(fit),
         "constants": [

@@ -1,7 +1,6 @@
 """Makes the map of a scene: histories until it is as accurate as asked for, or the time is over.
 
-Most histories are solved on a grid with half as many intervals, at a sixth of the cost; some on the scene's own too,
-which tell what the two differ by.
+Most are solved on a grid with half as many intervals, some on the scene's own too: what the two differ by.
 """
 
 import json

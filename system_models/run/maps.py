@@ -1,7 +1,6 @@
 """Maps of the contact and of both bodies at one time as bytes, and the Dataset made of those of several times.
 
-The maps of the contact lie on its grid, those of a body on its patch, which moves with it: a pad of tribofilm stays
-where it is. Maps are in single precision, all other numbers in double.
+Those of the contact lie on its grid, those of a body on its patch, which moves with it. Maps are in single precision.
 """
 
 import io

@@ -1,9 +1,7 @@
 """Stribeck curves of a contact that is being rubbed.
 
-The contact runs through its duty. At given rubbing times it stops, and its surfaces as they are then run through a
-range of entrainment speeds at one slide-to-roll ratio. Time stands still in such a sweep, and each speed starts from
-the rubbed contact itself: a sweep neither wears the surfaces nor depends on the order of its speeds, and all its speeds
-use the same stretch of the surfaces.
+At given rubbing times its surfaces, as they are then, run through a range of entrainment speeds at one slide-to-roll
+ratio. Time stands still in a sweep: each speed starts from the rubbed contact itself.
 """
 
 import logging

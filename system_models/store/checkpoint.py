@@ -1,9 +1,8 @@
 """The checkpoint of a run, in the folder of its results: all that is needed to continue after a kill.
 
-`checkpoint.tribofmu` is the point reached. It is replaced as a whole, never changed: magic, checksum of the rest,
-length of a JSON header, header, state of the FMU. `checkpoint.rows` holds the rows up to there, one binary record each,
-and only grows. The header says how many of its bytes count, and their checksum; remains of a kill behind them are
-overwritten. `checkpoint.kept` is the same for records of the caller, such as fields; without any there is no such file.
+`checkpoint.tribofmu` is the point reached, replaced as a whole: magic, checksum of the rest, length of a JSON header,
+header, state. `checkpoint.rows` has the rows up to there, and only grows: the header says how many of its bytes count,
+and their checksum. `checkpoint.kept` is the same for records of the caller, such as fields.
 """
 
 import json
@@ -172,7 +171,6 @@ class Checkpoint:
         self._next = monotonic() + max(_PAUSE, _REST * (monotonic() - start))
 
     def remove(self) -> None:
-        """Remove what is stored."""
         # the rows last: without them the file would be damaged
         for path in (self.file, self._new, self._records.path, self._rows.path):
             path.unlink(missing_ok=True)

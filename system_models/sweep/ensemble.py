@@ -1,7 +1,6 @@
-"""Several patches, or seeds, of one surface: the mean of each output over them, and its band.
+"""Several patches, or seeds, of one surface: the mean of each output over them, and its band by Student's t.
 
-Patches are samples of the surface, so Student's t gives the band of 95 % of their mean, and their standard deviation
-says how far a single patch is off. The stated error of the runs comes on top: it is common to them, and not averaged.
+The stated error of the runs comes on top: it is common to them, and not averaged.
 """
 
 import re

@@ -1,8 +1,7 @@
 """An ensemble of a scene as one result: its plan, means along time with their bands, and a table of the ends.
 
-The result looks like that of one contact, so that reports and comparisons show it: each output is the mean of the
-members, `_error` the mean of their stated half widths, which are common to them and not averaged out, and `_band` the
-half width (95 %, Student's t) of the mean by the scatter of the members.
+Each output is the mean of the members, `_error` the mean of their stated half widths, which are common to them, and
+`_band` the half width (95 %, Student's t) of the mean by the scatter of the members.
 """
 
 import json
@@ -40,7 +39,6 @@ _ANY = "range_flags"  # of members: raised by any of them
 
 
 def plan_of_members(members: Members) -> Plan:
-    """Return the plan that runs each member."""
     return Plan((Factor(MEMBER, members.names, together=members.settings),), np.empty((0, 0)), "ensemble")
 
 
@@ -55,7 +53,6 @@ def refuse_missing(members: Members, outcomes: dict[int, Outcome]) -> None:
 
 
 def attribute(members: Members) -> str:
-    """Return the members as an attribute of a result."""
     return json.dumps({"keys": members.keys, "members": members.names})
 
 

@@ -1,7 +1,6 @@
 """Sobol indices of the outputs of a sweep: which share of their variance is due to which key.
 
-Source: Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, doi:10.1016/j.cpc.2009.09.018; computed
-by `scipy.stats.sobol_indices`.
+Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, doi:10.1016/j.cpc.2009.09.018, by `scipy.stats.sobol_indices`.
 """
 
 from typing import NamedTuple

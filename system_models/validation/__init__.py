@@ -1,6 +1,6 @@
 """Comparisons with measurements, published numbers, closed forms and a thesis: one verdict each, with its cause.
 
-    registry        the table of comparisons
+    registry        the comparisons of comparisons.toml, and how each is run
     model           records: comparison, row, cause, verdict
     optical_films   measured: central films from 5 mm/s to 4 m/s
     dimple          measured: a dimple that crosses a contact
@@ -17,7 +17,7 @@
     thesis          thesis: two hours of the shipped cases
     tables          the tables in `data/`, with their licences
     terminal        outcomes as text
-    page, picture   outcomes as a web page of one file, with its pictures
+    page            outcomes as a web page of one file, with its pictures
 
 A comparison says what an answer may differ by, and why, before it is run. Where the cause of a difference is known, so
 is the range of answers that it explains: another answer is a disagreement of unknown cause.

@@ -10,7 +10,7 @@ from contact_core import OperatingPoint, Outputs, Scene, advance, initial_state
 from contact_core.laws.asperity_layer import ELASTIC_HEIGHT, PLASTIC_HEIGHT
 from contact_core.scene import Case
 
-from .model import Comparison, Kind, Outcome, Row, compared
+from .model import Outcome, Row, compared
 from .tables import read
 
 PAGE = "docs/measured/surfaces.md"
@@ -157,20 +157,3 @@ def run() -> Outcome:
         (np.array(at), np.array(shares)), computed, logarithmic=True,
     )  # fmt: skip
     return Outcome(tuple(rows), (curve,))
-
-
-COMPARISON = Comparison(
-    "Share of the load on the solids over lambda",
-    Kind.NUMERICAL,
-    "Seven published fits, computed from profiles or statistics of rigid roughness, none measured: their least and "
-    "largest is the reference. Beside them our own law of dry roughness read in the same way (stated error: half the "
-    "way from elastic to yielding asperities), and solved contacts: shipped scenes, and a roller on a raceway with "
-    f"the waves of a measured trace, one block on {NODES} nodes with its own stated error. lambda: film of smooth "
-    "bodies by formula over the rms height of both. An eighth fit is left out: its formula is from memory.",
-    "Aihara, J. Tribol. 109 (1987) 471; Zhou & Hoeprich, J. Tribol. 113 (1991) 590, doi:10.1115/1.2920664, as "
-    "evaluated by Wingertszahn et al., Lubricants 11 (2023) 369; Balan et al., Lubricants 3 (2015) 222; Arana, "
-    "Larranaga & Ulacia, Proc. IMechE J 233 (2019) 303, doi:10.1177/1350650118778655; Greenwood & Tripp, Proc. IMechE "
-    "185 (1970) 625, doi:10.1243/PIME_PROC_1970_185_069_02",
-    run,
-    "CC BY 4.0 where their sources are; evaluated here",
-)

@@ -7,7 +7,7 @@ from contact_core.laws.viscosity import AstmD341
 from contact_core.quantities import CELSIUS
 from contact_core.scene.bases import base_of
 
-from .model import Comparison, Kind, Outcome, Row, exactly, relative
+from .model import Outcome, Row, exactly, relative
 
 # relative half widths of the measured coefficients by how they are known: constants fitted to viscometry; a fit of
 # others to measurements without a name; a printed table that does not define its coefficient (slope or secant)
@@ -30,16 +30,3 @@ def _row(measured: dict[str, str]) -> Row:
         f"{measured['oil']} at {celsius:g} degC", "1/GPa", exactly(value), computed, relative(value, known),
         f"{provenance}: {100.0 * known:.0f} %, assumed", relative(computed, base.interval),
     )  # fmt: skip
-
-
-COMPARISON = Comparison(
-    "Pressure coefficients of base oils by two viscosities and a family",
-    Kind.MEASURED,
-    "What a scene with `base` takes where it gives no coefficient. The bends of mineral oils are those of FVA 3 and "
-    "M100, that of polyalphaolefins PAO100's; the rise with the fall of viscosity was fitted to N100 and the oils of "
-    "medium index. Nothing was fitted to HLP 32, MIL-L-23699, the oils of high index and the copolymer. Stated "
-    "error: the family's interval.",
-    "Wingertszahn et al. 2023, doi:10.3390/lubricants11090369; Arana, Larranaga & Ulacia 2019, "
-    "doi:10.1177/1350650118778655; Stachowiak & Batchelor, Engineering Tribology, table 2.3",
-    run,
-)

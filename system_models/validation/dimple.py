@@ -6,7 +6,7 @@ from contact_core import Scene, initial_state, march
 from contact_core.deterministic.transient import rolled
 from contact_core.kernels.arrays import Array
 
-from .model import Comparison, Kind, Outcome, Row, compared, exactly, relative, rounding
+from .model import Outcome, Row, compared, exactly, relative, rounding
 from .tables import read
 
 DIMPLE = {2: -87e-6, 3: -49e-6, 4: 24e-6, 5: 113e-6}  # m: middle of the dimple in each profile; not in the first one
@@ -86,16 +86,3 @@ def run() -> Outcome:
             )
         )
     return Outcome(tuple(rows), tuple(curves))
-
-
-COMPARISON = Comparison(
-    "A dimple crosses a point contact in rolling",
-    Kind.MEASURED,
-    "Steel ball on glass, 15 N, 0.09 m/s; gap along the centre line by interferometry at five places of the dimple. "
-    "Mean film over |x| < a/2, beside the dimple; scene `dimple_rolling` as it ships, on 129 nodes, in time; stated "
-    "error: the difference from 65 nodes.",
-    "Mourier et al., Tribol. Int. 39 (2006) 1745, doi:10.1016/j.triboint.2006.02.066; points from "
-    "github.com/ErikHansenGit/EHL",
-    run,
-    "Unlicense",
-)

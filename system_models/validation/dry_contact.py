@@ -6,7 +6,7 @@ from contact_core import dry_contact
 from contact_core.kernels.arrays import Array
 from contact_core.reference import hertz_point
 
-from .model import Comparison, Kind, Outcome, Row, compared, exactly
+from .model import Outcome, Row, compared, exactly
 
 LOAD, RADIUS, MODULUS, ACCURACY = 50.0, 9.525e-3, 2.3e11, 0.01
 NODES = 65
@@ -33,12 +33,3 @@ def run() -> Outcome:
     exact: Array = hertz.pressure_max * np.sqrt(np.maximum(1.0 - x**2, 0.0))
     curve = compared("pressure", "x / a", "p [GPa]", (x, 1e-9 * exact), (x, 1e-9 * middle))
     return Outcome(rows, (curve,))
-
-
-COMPARISON = Comparison(
-    "Dry contact of a ball and a plane",
-    Kind.CLOSED_FORM,
-    f"Steel ball of 19.05 mm, {LOAD:g} N; `dry_contact` with an accuracy of {100.0 * ACCURACY:g} %.",
-    "Hertz 1882; Johnson, Contact Mechanics, 1985, doi:10.1017/CBO9781139171731, chapters 3 and 4",
-    run,
-)

@@ -12,7 +12,7 @@ from contact_core.reference import (
     nijenbanning_venner_moes,
 )
 
-from .model import Comparison, Kind, Outcome, Row, exactly, relative
+from .model import Outcome, Row, exactly, relative
 
 RADIUS, MODULUS, VISCOSITY, COEFFICIENT = 0.01, 2.26e11, 0.04, 2.2e-8  # m, Pa, Pa s, 1/Pa
 POINTS = ((100.0, 5.0), (100.0, 10.0), (1000.0, 5.0))  # M, L
@@ -80,16 +80,3 @@ def _row(quantity: str, formula: float, apart: float, found: PointContact | Line
 def run() -> Outcome:
     """Compare incompressible oils under Barus' law, as the formulas are for."""
     return Outcome(tuple([_point(*numbers) for numbers in POINTS] + [_line(*numbers) for numbers in LINES]))
-
-
-COMPARISON = Comparison(
-    "Central films of smooth points and lines",
-    Kind.NUMERICAL,
-    "Moes' load number M and lubricant number L; `point_contact` and `line_contact` with an accuracy of "
-    f"{100.0 * ACCURACY:g} %, whose error is the stated one. Points: Nijenbanning, Venner and Moes beside Hamrock and "
-    "Dowson; lines: Moes beside Dowson and Toyoda.",
-    "Nijenbanning, Venner & Moes, Wear 176 (1994) 217, doi:10.1016/0043-1648(94)90150-3; Hamrock & Dowson, J. Lubr. "
-    "Technol. 99 (1977) 264, doi:10.1115/1.3453074; Moes, Wear 159 (1992) 57; Dowson & Toyoda, Proc. 5th Leeds-Lyon "
-    "Symposium on Tribology (1979) 60",
-    run,
-)

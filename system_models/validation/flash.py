@@ -6,7 +6,7 @@ from contact_core.kernels.arrays import Array
 from contact_core.kernels.moving_source import MovingSurface
 from contact_core.reference import jaeger_circle, tian_kennedy_circle
 
-from .model import Comparison, Kind, Outcome, Row, compared, exactly
+from .model import Outcome, Row, compared, exactly
 
 CONDUCTIVITY, DIFFUSIVITY, RADIUS = 46.0, 1.25e-5, 1e-5  # W/(m K), m2/s, m
 PECLETS = (0.1, 1.0, 10.0, 100.0)  # of the radius: u r / (2 kappa)
@@ -45,13 +45,3 @@ def run() -> Outcome:
         (np.array(PECLETS), np.array(means)), logarithmic=True,
     )  # fmt: skip
     return Outcome(tuple(rows), (curve,))
-
-
-COMPARISON = Comparison(
-    "Flash temperature of a circular source that moves",
-    Kind.CLOSED_FORM,
-    f"The kernel of `heat.model = field` on {GRIDS[1]} cells to the radius, against Jaeger's integral by quadrature. "
-    f"Stated error: the difference from {GRIDS[0]} cells.",
-    "Jaeger, Proc. R. Soc. NSW 76 (1942) 203; Tian & Kennedy, J. Tribol. 116 (1994) 167, doi:10.1115/1.2927035",
-    run,
-)

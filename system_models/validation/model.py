@@ -89,7 +89,6 @@ class Row:
 
 
 def exactly(value: float) -> tuple[float, float]:
-    """Return a reference that is one value."""
     return value, value
 
 

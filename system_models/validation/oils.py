@@ -6,7 +6,7 @@ from contact_core.quantities import CELSIUS
 from contact_core.scene import Lubricant
 from contact_core.scene.toml import build
 
-from .model import Cause, Comparison, Kind, Outcome, Row, exactly, relative
+from .model import Cause, Outcome, Row, exactly, relative
 
 # kinematic viscosity at 40 and 100 degC [mm2/s], density at 15.6 degC [kg/m3]: Arana et al. 2019, table 2
 OILS = {"m100": ((96.0, 10.6), 882.0), "pao100": ((94.1, 14.0), 840.0), "n100": ((97.9, 8.61), 900.0)}
@@ -43,13 +43,3 @@ def run() -> Outcome:
                 )
             )  # fmt: skip
     return Outcome(tuple(rows))
-
-
-COMPARISON = Comparison(
-    "Viscosities of named oils at 40 and 100 degC",
-    Kind.MEASURED,
-    "Data-sheet viscosities of a paraffinic, a synthetic and a naphthenic oil against the constants that ship. "
-    "Stated error: half of the last digit of the printed constants.",
-    "Arana, Larranaga & Ulacia, Proc. IMechE J 233 (2019) 303, doi:10.1177/1350650118778655, tables 2 and 3",
-    run,
-)

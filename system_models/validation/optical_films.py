@@ -10,7 +10,7 @@ from contact_core.kernels.arrays import Array
 from contact_core.laws.viscosity import AstmD341
 from contact_core.quantities import CELSIUS
 
-from .model import Comparison, Kind, Outcome, Row, compared, exactly
+from .model import Outcome, Row, compared, exactly
 from .tables import read
 
 BALL, MODULUS = 9.525e-3, 2.0 / ((1.0 - 0.3**2) / 207e9 + (1.0 - 0.22**2) / 75e9)  # m; Pa, steel on glass
@@ -100,15 +100,3 @@ def run() -> Outcome:
         (low.speed, 1e9 * mean), 1e9 * low.deviation, logarithmic=True,
     )  # fmt: skip
     return Outcome(rows, (curve,))
-
-
-COMPARISON = Comparison(
-    f"Central films from 5 mm/s to {SLOW:g} m/s",
-    Kind.MEASURED,
-    "Steel ball of 19.05 mm on glass, 50 N, pure rolling, mineral oil of 67.0 / 18.9 mm2/s at 40 / 100 degC, by "
-    "optical interferometry. `point_contact` on 129 nodes; stated error: half the difference that pressure "
-    "coefficients of 20 and 30 1/GPa make. Faster films warm their inlet, which is left out.",
-    "github.com/moritzploss/tribology, examples/dowson_hamrock",
-    run,
-    "MIT",
-)

@@ -1,41 +1,26 @@
-"""The table of comparisons, by name."""
+"""The comparisons by name, of comparisons.toml; each is run by the module of its name."""
 
 import difflib
+import tomllib
 from collections.abc import Sequence
+from functools import partial
+from importlib import import_module
+from importlib.resources import files
 
 from contact_core.errors import ContactError
 
-from . import (
-    asperity_load,
-    base_oils,
-    dimple,
-    dry_contact,
-    film_formulas,
-    flash,
-    oils,
-    optical_films,
-    rolling_torques,
-    starvation,
-    stresses,
-    thesis,
-    traction,
-)
-from .model import Comparison, Outcome
+from .model import Comparison, Kind, Outcome
 
-COMPARISONS: dict[str, Comparison] = {
-    "optical_films": optical_films.COMPARISON,
-    "dimple": dimple.COMPARISON,
-    "oils": oils.COMPARISON,
-    "base_oils": base_oils.COMPARISON,
-    "traction": traction.COMPARISON,
-    "asperity_load": asperity_load.COMPARISON,
-    "rolling_torques": rolling_torques.COMPARISON,
-    "film_formulas": film_formulas.COMPARISON,
-    "starvation": starvation.COMPARISON,
-    "dry_contact": dry_contact.COMPARISON,
-    "stresses": stresses.COMPARISON,
-    "flash": flash.COMPARISON,
-    "thesis": thesis.COMPARISON,
+
+def _run(name: str) -> Outcome:
+    found: Outcome = import_module(f".{name}", __package__).run()
+    return found
+
+
+_TABLES = tomllib.loads((files(__package__) / "comparisons.toml").read_text("utf-8"))
+COMPARISONS = {
+    name: Comparison(**{**table, "kind": Kind(table["kind"]), "run": partial(_run, name)})
+    for name, table in _TABLES.items()
 }
 
 

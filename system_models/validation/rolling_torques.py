@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 from contact_core import OperatingPoint, Outputs, Scene, advance, initial_state
 from contact_core.quantities import CELSIUS
 
-from .model import Cause, Comparison, Kind, Outcome, Row, exactly, relative
+from .model import Cause, Outcome, Row, exactly, relative
 from .tables import read
 
 RPM = math.pi / 30.0
@@ -111,15 +111,3 @@ def _roller_rows() -> list[Row]:
 def run() -> Outcome:
     """Compare torques of both bearings."""
     return Outcome((*_ball_rows(), *_roller_rows()))
-
-
-COMPARISON = Comparison(
-    "Rolling resistance in friction torques of bearings",
-    Kind.MEASURED,
-    "Thrust ball bearing with three balls, two drops of oil; tapered roller bearing in an oil bath, FVA 3. All "
-    "contacts flooded, at the regression level, with inlet heating for the rollers; stated error: `error_rolling`.",
-    "Balan, Houpert, Tufescu & Olaru, Lubricants 3 (2015) 222, doi:10.3390/lubricants3020222; "
-    "Wingertszahn et al., Lubricants 11 (2023) 369, doi:10.3390/lubricants11090369",
-    run,
-    "CC BY 4.0",
-)

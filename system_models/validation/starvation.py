@@ -8,7 +8,7 @@ from contact_core import ConvergenceError, point_contact
 from contact_core.laws.density import DowsonHigginson
 from contact_core.reference.starvation import supplied_film
 
-from .model import Comparison, Kind, Outcome, Row
+from .model import Outcome, Row
 
 LOAD, RADIUS, MODULUS, VISCOSITY, COEFFICIENT, SPEED = 100.0, 0.01, 2.2e11, 0.05, 2e-8, 1.0
 SHARES = (0.25, 0.5, 1.0, 2.0)  # of the oil that a flooded contact takes
@@ -43,14 +43,3 @@ def run() -> Outcome:
         quantity = f"film over the flooded one, {share:g} of its oil"
         rows.append(Row(quantity, "", (low, high), film, 0.0, reason, abs(film - less)))
     return Outcome(tuple(rows))
-
-
-COMPARISON = Comparison(
-    "Films of points with an even layer of oil",
-    Kind.NUMERICAL,
-    f"h/h_flooded = r (1 + r^g)^(-1/g) with g = 2 to 5; `point_contact` with a supply, mass-conserving, on "
-    f"{GRIDS[1]} nodes; stated error: the difference from {GRIDS[0]}.",
-    "Chevalier, Lubrecht, Cann, Colin & Dalmaz, J. Tribol. 120 (1998) 126, doi:10.1115/1.2834175; "
-    "Damiens, Venner, Cann & Lubrecht, J. Tribol. 126 (2004) 105, doi:10.1115/1.1631020",
-    run,
-)

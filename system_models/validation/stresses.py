@@ -5,7 +5,7 @@ import numpy as np
 from contact_core import subsurface_stress
 from contact_core.kernels.arrays import Array
 
-from .model import Comparison, Kind, Outcome, Row, compared, exactly
+from .model import Outcome, Row, compared, exactly
 
 CELLS = 24  # across the half width
 DEPTHS = np.arange(0.2, 1.21, 0.02)  # over the half width
@@ -45,12 +45,3 @@ def run() -> Outcome:
             )
         )
     return Outcome(tuple(rows), tuple(curves))
-
-
-COMPARISON = Comparison(
-    "Largest shear stress below Hertz's contacts",
-    Kind.CLOSED_FORM,
-    f"`subsurface_stress` of Hertz's pressure on {CELLS} cells to the half width; the call states no error.",
-    "Johnson, Contact Mechanics, 1985, doi:10.1017/CBO9781139171731, sections 4.1 and 4.2",
-    run,
-)

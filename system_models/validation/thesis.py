@@ -9,7 +9,7 @@ from contact_core import Outputs, Scene, advance, initial_state
 from contact_core.kernels.arrays import Array
 from contact_core.reference import SmoothContact, ghanbarzadeh_thickness, hamrock_dowson
 
-from .model import Cause, Comparison, Kind, Outcome, Row, compared, exactly
+from .model import Cause, Outcome, Row, compared, exactly
 
 STEP, STEPS = 60.0, 120  # s
 LATE = 0.9  # of the largest film: established
@@ -48,7 +48,6 @@ class Run:
         return np.array([getattr(outputs, name) for outputs in self.outputs])
 
     def end(self, name: str) -> float:
-        """Return the last value."""
         return float(self[name][-1])
 
 
@@ -172,13 +171,3 @@ def run() -> Outcome:
             )
         )
     return Outcome((*_case_a(a), *_case_b(b)), tuple(curves))
-
-
-COMPARISON = Comparison(
-    "Two hours of both cases of a thesis",
-    Kind.THESIS,
-    "Scenes `azam_case_a` and `mtm_zddp` on the regression level, one row a minute. Most results are printed as plots: "
-    f"shapes and orders count. All 62 claims, on the deterministic level: {PAGE}.",
-    "Azam, PhD thesis, University of Leeds 2018, chapters 5 to 7",
-    run,
-)

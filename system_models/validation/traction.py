@@ -12,7 +12,7 @@ from contact_core import Scene, advance, initial_state
 from contact_core.quantities import CELSIUS
 from contact_core.state import Outputs
 
-from .model import Cause, Comparison, Kind, Outcome, Row, exactly, relative
+from .model import Cause, Outcome, Row, exactly, relative
 from .tables import read
 
 LIMIT_BY_DISCS = {
@@ -124,7 +124,6 @@ def ceilings() -> list[tuple[Point, float]]:
 
 
 def points_of_curves() -> list[Point]:
-    """Return the points of the published curves."""
     return [Point(oil, _PRESSURE, speed, _WARM) for oil in _CURVES for speed in _SPEEDS]
 
 
@@ -187,17 +186,3 @@ def _remembered() -> Row:
         "polyalphaolefin, 1.12 GPa, 100 degC, SRR 0.5: friction", "", (0.02, 0.03), friction(point.curve((0.5,))[0]),
         0.0, "ball-on-disc rigs", not_judged="remembered, not read; another viscosity class",
     )  # fmt: skip
-
-
-COMPARISON = Comparison(
-    "Full-film friction of discs",
-    Kind.NUMERICAL,
-    "Smooth steel discs under mineral oils and a polyalphaolefin at the regression level: the largest friction beside "
-    "Dyson's formula for mineral oils in disc machines, tau = 0.3 p/(2.52 + 0.024 t) - 25 MPa; peaks and slopes at "
-    "1 GPa beside a prediction that its authors found within 0.005 of the curves of Mann's twin discs (radii, bulk "
-    "temperatures and the points themselves are not printed). The rows of Dyson's formula get no verdict: the "
-    "limiting stress of mineral oils was taken from it. No measured curve could be had as numbers.",
-    "Dyson, Phil. Trans. R. Soc. A 266 (1970) 1, as printed by Zhou & Hoeprich, J. Tribol. 113 (1991) 590, "
-    "doi:10.1115/1.2920664; Arana, Larranaga & Ulacia, Proc. IMechE J 233 (2019) 303, doi:10.1177/1350650118778655",
-    run,
-)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from comparison import approx
 
+from benchmarks.stress.closed_forms import circle_stress, ellipse_axis_stress, line_stress
 from contact_core import dry_contact, graded_depths, subsurface_stress
 from contact_core.reference import hertz_point
-from contact_core.reference.stresses import circle_stress, ellipse_axis_stress, line_stress
 
 # lengths in half widths of the contact, stress in its largest pressure
 

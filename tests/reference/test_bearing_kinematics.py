@@ -81,12 +81,10 @@ def pressed(of):
 
 
 def test_shares_of_differential_sliding_are_those_of_no_net_force():
-    coulomb, viscous = kinematics.NEUTRAL_COULOMB, kinematics.NEUTRAL_VISCOUS
+    coulomb = kinematics.NEUTRAL_COULOMB
     assert pressed(lambda s: math.copysign(1.0, s - coulomb)) == approx(0.0, abs=1e-12)
-    assert pressed(lambda s: s * s - viscous**2) == approx(0.0, abs=1e-12)
     assert pressed(lambda s: abs(s * s - coulomb**2)) == approx(kinematics.SLIDE_COULOMB, rel=1e-12)
-    assert pressed(lambda s: (s * s - viscous**2) ** 2) == approx(kinematics.SLIDE_VISCOUS**2, rel=1e-12)
-    assert (coulomb, kinematics.SLIDE_COULOMB, kinematics.SLIDE_VISCOUS) == approx((0.347, 0.161, 0.214), abs=5e-4)
+    assert (coulomb, kinematics.SLIDE_COULOMB) == approx((0.347, 0.161), abs=5e-4)
 
 
 def test_spin_is_shared_near_race_control_at_little_more_power():

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from closed_forms import sjovall
 from comparison import approx
 
 from system_models.machines.ball_bearing.equilibrium import RingLoads, solve
@@ -14,8 +15,6 @@ from system_models.machines.ball_bearing.textbook import (
     CatalogueBearing,
     Series,
     palmgren_torque,
-    sjovall,
-    skf_drag,
     skf_torque,
 )
 
@@ -89,13 +88,6 @@ def test_skf_torque_of_a_deep_groove_bearing_in_its_limits():
         skf_torque(CATALOGUE_209, 3000.0, 1000.0, 100.0, 20e-6).total
         > skf_torque(CATALOGUE_209, 3000.0, 0.0, 100.0, 20e-6).total
     )
-
-
-def test_drag_grows_with_the_oil_level_and_vanishes_without_oil_or_speed():
-    drags = [skf_drag(CATALOGUE_209, 300.0, 20e-6, level, 3e-4) for level in (0.0, 1e-3, 5e-3, 20e-3, 0.1)]
-    assert drags[0] == 0.0
-    assert drags == sorted(drags)
-    assert skf_drag(CATALOGUE_209, 0.0, 20e-6, 5e-3, 3e-4) == 0.0
 
 
 def test_palmgren_torque_has_both_of_its_branches():

@@ -3,10 +3,11 @@
 from itertools import pairwise
 
 import numpy as np
+from closed_forms import lundberg_depth
 from comparison import approx
 
 from contact_core import Logarithmic, Rounded, line_contact
-from contact_core.reference import hertz_line, lundberg_depth
+from contact_core.reference import hertz_line
 
 E, LENGTH, LOAD, RADIUS = 230e9, 3e-3, 4e5, 10e-3  # LOAD per length
 DEPTH = lundberg_depth(LOAD * LENGTH, LENGTH, E)

@@ -3,12 +3,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from closed_forms import chittenden
 from comparison import approx
 
 from contact_core import Scene
 from contact_core.reference import (
     SmoothContact,
-    chittenden,
     hamrock_dowson,
     moes_film,
     nijenbanning_venner_moes,

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from closed_forms import blok_line
 from comparison import approx
 from scipy.integrate import quad
 
@@ -12,7 +13,7 @@ from contact_core.reference import hertz_line
 from system_models.machines.gear_pair.geometry import FZG_A, FZG_C, FZG_STAGES
 from system_models.machines.gear_pair.path import radius, stations_of, surface_speeds
 from system_models.machines.gear_pair.sharing import Sharing, loads
-from system_models.machines.gear_pair.textbook import blok_line, iso_14179_1, loss_factor, ohlendorf, schlenk
+from system_models.machines.gear_pair.textbook import iso_14179_1, loss_factor, ohlendorf, schlenk
 
 PINION = 2170.0 * 2.0 * math.pi / 60.0
 ELASTIC = Sharing("elastic")

@@ -4,11 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from closed_forms import slide_to_roll
 from comparison import approx
 
 from contact_core.reference import hertz_line
 from system_models.machines.gear_pair.geometry import FZG_A, FZG_C, FZG_STAGES
-from system_models.machines.gear_pair.path import radius, slide_to_roll, stations_of, steps, surface_speeds
+from system_models.machines.gear_pair.path import radius, stations_of, steps, surface_speeds
 from system_models.machines.gear_pair.sharing import Sharing, loads, mean_stiffness, pair_stiffness, single_stiffness
 
 PAIRS = pytest.mark.parametrize("pair", [FZG_C, FZG_A])

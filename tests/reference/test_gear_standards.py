@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from closed_forms import blok_line
 from comparison import approx
 
 from contact_core import Scene
@@ -15,7 +16,7 @@ from system_models.machines.gear_pair.geometry import FZG_A, FZG_C, FZG_STAGES, 
 from system_models.machines.gear_pair.rating import Rating
 from system_models.machines.gear_pair.safety import Safeties
 from system_models.machines.gear_pair.sharing import Sharing
-from system_models.machines.gear_pair.textbook import blok_line, schlenk
+from system_models.machines.gear_pair.textbook import schlenk
 from system_models.machines.gear_pair.working import Working
 
 OIL = Scene.from_toml("fzg_flank").lubricant.viscosity

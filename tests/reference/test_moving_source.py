@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from closed_forms import jaeger_band
 from comparison import approx
 from scipy.integrate import dblquad, quad
 from scipy.special import k0
@@ -9,7 +10,7 @@ from scipy.special import k0
 from contact_core.kernels.half_space import influence
 from contact_core.kernels.moving_source import MovingSurface, moving_influence, periodic_moving_influence
 from contact_core.laws.heat import TemperatureField
-from contact_core.reference import jaeger_band, jaeger_circle, tian_kennedy_circle
+from contact_core.reference import jaeger_circle, tian_kennedy_circle
 
 CONDUCTIVITY, DIFFUSIVITY = 46.0, 1.25e-5
 

@@ -1,10 +1,11 @@
 """Roller profiles against the half space they are made for and against plain geometry."""
 
 import numpy as np
+from closed_forms import lundberg_depth
 from comparison import approx
 from scipy.integrate import quad
 
-from contact_core.reference import hertz_line, logarithmic_drop, lundberg_depth, rounded_drop
+from contact_core.reference import hertz_line, logarithmic_drop, rounded_drop
 
 E, LENGTH, LOAD, RADIUS = 230e9, 12e-3, 6000.0, 5e-3
 Y = np.linspace(-0.5 * LENGTH, 0.5 * LENGTH, 101)

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from comparison import approx
 from scipy.integrate import quad, solve_ivp
+from sliders import ParabolicSlider
 
-from contact_core.reference import ParabolicSlider, moes_line_film
+from contact_core.reference import moes_line_film
 
 FLOODED = ParabolicSlider(gap=1e-6, radius=0.01, viscosity=0.02, entrainment_speed=1.5)
 LATE = ParabolicSlider(1e-6, 0.01, 0.02, 1.5, inlet=-1.2e-4)

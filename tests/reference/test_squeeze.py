@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
+from closed_forms import squeeze_line, squeeze_point, squeezed_line, squeezed_point
 from comparison import approx
 from scipy.integrate import quad, solve_ivp
-
-from contact_core.reference import squeeze_line, squeeze_point, squeezed_line, squeezed_point
 
 ETA, GAP = 0.05, 1e-7
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from comparison import approx
+from sliders import ParabolicSlider
 
 from contact_core import line_contact
 from contact_core.kernels.half_space import PeriodicHalfSpace
 from contact_core.kernels.mixed.newton import solve_newton
 from contact_core.kernels.mixed.problem import Iterate, Problem
-from contact_core.reference.sliders import ParabolicSlider
 
 GAP = 0.1  # of the rigid roller of unit radius; oil such that the pressure flow is h^3 dp/dx
 GRIDS = (129, 257, 513, 1025)

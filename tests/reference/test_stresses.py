@@ -6,7 +6,7 @@ from comparison import approx
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from contact_core.reference.stresses import circle_stress, ellipse_axis_stress, line_stress
+from benchmarks.stress.closed_forms import circle_stress, ellipse_axis_stress, line_stress
 
 
 def boussinesq(x, y, z, poisson):

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from contact_core import Scene, shipped_scenes
-from system_models.cli.main import _parser
+from system_models.cli.main import parser_of_all
 from system_models.machines import reading
 from system_models.machines.files import shipped
 
@@ -20,7 +20,7 @@ _INDENTED = re.compile(r"^ {4}(tribofmu .*)$", re.MULTILINE)
 _WITHIN = re.compile(r"`(tribofmu [^`]*)`")
 _OPEN = re.compile(r"\b(?:SYSTEM|FILE|SCENE|NAME|MACHINE|DIR|DATA)\b|\.\.\.|HOST:PORT|A B")  # stands for something
 _OF_PAGE = re.compile(r"\.(?:toml|npy|csv|json)\b|^(?:quinn_80c|leader)$")  # files, sets and schemes that a page makes
-PARSER = _parser()
+PARSER = parser_of_all()
 SHIPPED = {*shipped_scenes(), *shipped()}
 
 

@@ -8,17 +8,17 @@ from matplotlib.mathtext import MathTextParser
 
 from contact_core.film import FILMS
 from contact_core.laws import SLOTS
-from contact_core.laws.symbols import COMMON
+from contact_core.laws.symbols import common
 from contact_core.shapes import GEOMETRIES
-from system_models.explain.collection import page
-from system_models.explain.latex import latex
+from docs._extensions.equations import page
+from docs._extensions.latex import latex
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = (DOCS / "equations.md").read_text("utf-8")
 
 
 def test_the_page_is_what_the_laws_say_today():
-    assert page() == PAGE, "python -m system_models.explain.collection > docs/equations.md"
+    assert page() == PAGE, "python -m docs._extensions.equations > docs/equations.md"
 
 
 def test_the_page_has_every_law_level_and_shape():
@@ -36,7 +36,7 @@ def test_the_glossary_has_every_symbol_that_laws_share_with_its_unit():
         for names, units in ((first, second), (second, third)):
             symbols, each = names.split(", "), units.split(", ")
             known |= set(zip(symbols, each if len(each) == len(symbols) else len(symbols) * each, strict=False))
-    shared = {(symbol.translate(str.maketrans("′", "'", "{}")), unit or "1") for symbol, (unit, _) in COMMON.items()}
+    shared = {(symbol.translate(str.maketrans("′", "'", "{}")), unit or "1") for symbol, (unit, _) in common().items()}
     assert shared - known == set()
 
 

@@ -2,17 +2,16 @@
 
 import math
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 import pytest
+from closed_forms import sjovall
 from comparison import approx
 
 from contact_core.errors import ContactError
 from system_models.machines.ball_bearing import rating
 from system_models.machines.ball_bearing.equilibrium import RingLoads, solve
 from system_models.machines.ball_bearing.geometry import BEARING_209, BEARING_218, BallBearingGeometry
-from system_models.machines.ball_bearing.textbook import sjovall
 
 RPM = math.pi / 30.0
 # ISO 281:2007, Table 2, radial and angular contact: D cos a / d_m, f_c
@@ -159,13 +158,6 @@ def test_miner_adds_revolutions_over_lives() -> None:
     speed = np.array([5.0, 2.0 * math.pi, -4.0 * math.pi])  # one turn a second, then two backward
     life = np.array([1.0, 100.0, 400.0])
     assert rating.consumed(time, speed, life) == approx(10.0 / 100.0 + 40.0 / 400.0, rel=1e-12)
-
-
-def test_the_table_of_contamination_falls_from_clean_to_dirty() -> None:
-    for size in (0, 1):
-        ends = [each for row in rating.CONTAMINATION.values() for each in reversed(row[size])]
-        assert ends[0] == 1.0 and ends[-1] == 0.0
-        assert all(before >= after for before, after in pairwise(ends))
 
 
 def test_the_fatigue_load_limit_of_large_bearings_falls_behind_their_size() -> None:

@@ -7,11 +7,11 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
+from benchmarks.stress.closed_forms import line_stress
 from contact_core import ContactState, RangeFlag, Scene, SceneError, advance, initial_state, subsurface_stress
 from contact_core.deterministic import damage
 from contact_core.deterministic.subsurface import Pass, Traction, of_a_pass, outputs_of_stress, passed
 from contact_core.kernels.load_cycle import Cycle
-from contact_core.reference.stresses import line_stress
 from contact_core.scene import Case
 from contact_core.state.below import nothing_below
 from contact_core.surfaces.patches import heights_of, on_grid, track_rows

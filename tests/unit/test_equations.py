@@ -25,7 +25,7 @@ from contact_core.laws.profile import Logarithmic, Rounded
 from contact_core.laws.rheology import Carreau, Eyring, Newtonian
 from contact_core.laws.scuffing import CriticalTemperature
 from contact_core.laws.stress import HalfSpace, ratios
-from contact_core.laws.symbols import COMMON, UNEXPLAINED, explained, in_lines
+from contact_core.laws.symbols import UNEXPLAINED, common, explained, in_lines
 from contact_core.laws.tribofilm import Andersson, Arrhenius, Combined, Ghanbarzadeh, Gosvami, ZhangSpikes
 from contact_core.laws.viscosity import AstmD341, Barus, Modulus, Roelands, kinematic_viscosity
 from contact_core.laws.wear import Archard, FilmFirst
@@ -258,7 +258,7 @@ def test_every_symbol_is_explained_with_a_unit_and_none_is_named_in_vain():
 
 def test_an_unexplained_symbol_is_noticed():
     found = {symbol.symbol: symbol.text for symbol in explained(Equations(("h = Q p",)), None)}
-    assert found == {"h": COMMON["h"][1], "Q": UNEXPLAINED, "p": COMMON["p"][1]}
+    assert found == {"h": common()["h"][1], "Q": UNEXPLAINED, "p": common()["p"][1]}
     assert list(in_lines(("p_0 = 196 MPa,   η in pascal seconds", "log_{10} max_t p dx′"))) == ["p_0", "η", "p"]
 
 

@@ -8,10 +8,10 @@ import pytest
 from comparison import approx
 
 import contact_core
+from benchmarks.stress.closed_forms import line_stress
 from contact_core import Scene
 from contact_core.kernels.load_cycle import Cycle, cycle_of
 from contact_core.laws.fatigue import Basquin, DangVan, Morrow, NoFatigue
-from contact_core.reference.stresses import line_stress
 
 LINE = {"reference_stress": 1e9, "life_exponent": 10.0, "reference_cycles": 1e7}
 

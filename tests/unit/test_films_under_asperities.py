@@ -8,6 +8,7 @@ from comparison import approx
 from independent import love_matrix
 from line_contact import line, roughness
 from scipy.integrate import quad
+from sliders import ParabolicSlider
 from wavy_contact import axis, problem
 
 from benchmarks.film.cases import RoughCase, grid_of, instant_of_call
@@ -21,7 +22,6 @@ from contact_core.kernels.mixed.marched import solve_marched
 from contact_core.kernels.mixed.newton import solve_newton
 from contact_core.kernels.mixed.problem import Iterate
 from contact_core.laws.asperity_layer import AsperityLayer
-from contact_core.reference import ParabolicSlider
 
 METHODS = {"hybrid": (solve_mixed, 600), "newton": (solve_newton, 60)}
 

@@ -1,12 +1,14 @@
 """Names that people write for the keys of a scene lead to the key, in one sentence."""
 
 import copy
+import tomllib
+from importlib.resources import files
 from typing import Any
 
 import pytest
 
 from contact_core import Scene, SceneError
-from contact_core.scene.other_names import _TABLES, meant
+from contact_core.scene.other_names import meant
 
 TABLE: dict[str, Any] = {
     "geometry": {"radius_x": "10 mm"},
@@ -97,8 +99,9 @@ def test_a_name_of_no_key_is_answered_with_all_keys_and_nothing_far_off() -> Non
 
 def test_no_name_has_two_meanings_and_none_is_a_key_already() -> None:
     scene = Scene.from_toml("mtm_zddp").to_dict()
-    for path, rows in _TABLES.items():
-        names = [name for words, _ in rows for name in words.split()]
+    data = (files("contact_core") / "data" / "other_names.toml").read_text("utf-8")
+    for path, rows in tomllib.loads(data).items():
+        names = [name for row in rows for name in row["names"].split()]
         assert len({*names}) == len(names), path
     assert not [key for key in scene if meant("", key)]
     assert not [key for key in scene["operation"] if meant("operation", key)]

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from comparison import approx
 
+from benchmarks.stress.closed_forms import line_stress
 from contact_core import ContactState, Outputs, Scene, advance, initial_state
 from contact_core.kernels.stress_measures import von_mises
 from contact_core.laws.stress import share_down_to
-from contact_core.reference.stresses import line_stress
 from contact_core.regression import fatigue, stress
 from contact_core.regression.contact import evaluate
 from contact_core.regression.near_surface import CURVES, HALF_WIDTH, meetings

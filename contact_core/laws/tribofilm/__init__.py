@@ -35,18 +35,3 @@ LAWS: tuple[type[Tribofilm], ...] = (
     Combined,
     Arrhenius,
 )
-
-__all__ = [
-    "DOSES",
-    "LAWS",
-    "Andersson",
-    "Arrhenius",
-    "Combined",
-    "Ghanbarzadeh",
-    "Gosvami",
-    "MeanPasses",
-    "NoTribofilm",
-    "Passes",
-    "ZhangSpikes",
-    "thickness",
-]

@@ -30,6 +30,13 @@ from .relaxation import formed
 Temperature = float | Array
 
 _COLDEST, _HOTTEST = 333.15, 393.15  # K, bulk: about the range of tests on rigs; assumed
+_SYMBOLS = {
+    "h_{max}": "full_thickness",
+    "A": "prefactor",
+    "E_0": "activation_energy",
+    "ΔV": "activation_volume",
+    "k_r": "removal_coefficient",
+}
 _POISSON = 0.3  # of the solids, for the shape of the surface tension
 
 
@@ -95,7 +102,6 @@ class _Activated:
 
     @property
     def most_exposure(self) -> float:
-        """Largest exposure [1/s] per test time that the supply of additive allows."""
         return self.supply_rate / self.full_thickness
 
     def rate(self, stress: Array, temperature: Temperature) -> Array:
@@ -182,13 +188,7 @@ class ZhangSpikes(_ByOneStress):
         "τ is the shear stress of oil and solids: a full film grows a tribofilm, too. Stress lowers the barrier to "
         "zero at most.",
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
-        symbols={
-            "h_{max}": "full_thickness",
-            "A": "prefactor",
-            "E_0": "activation_energy",
-            "ΔV": "activation_volume",
-            "k_r": "removal_coefficient",
-        },
+        symbols=_SYMBOLS,
     )
 
     least_shear: float = _least_shear()
@@ -223,13 +223,7 @@ class Gosvami(_ByOneStress):
         ),
         "The normal stress drives the growth where solids touch. It lowers the barrier to zero at most.",
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
-        symbols={
-            "h_{max}": "full_thickness",
-            "A": "prefactor",
-            "E_0": "activation_energy",
-            "ΔV": "activation_volume",
-            "k_r": "removal_coefficient",
-        },
+        symbols=_SYMBOLS,
     )
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
@@ -262,11 +256,7 @@ class Combined(_Activated):
         "c is 1 where solids rub, else 0. Stress lowers the barrier to zero at most.",
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
         symbols={
-            "h_{max}": "full_thickness",
-            "A": "prefactor",
-            "E_0": "activation_energy",
-            "ΔV": "activation_volume",
-            "k_r": "removal_coefficient",
+            **_SYMBOLS,
             "w_1": "contact_weight",
             "w_2": "stress_weight",
             "x": "rate_factor",
@@ -312,12 +302,10 @@ class Combined(_Activated):
         return self.contact_weight * in_contacts + self.stress_weight * by_shear
 
     def covers(self, temperature: float) -> bool:
-        """Return True if the constants of those parts that have a weight hold at a bulk `temperature` [K]."""
         in_contacts = self.contact_weight == 0.0 or self.in_contacts.covers(temperature)
         return in_contacts and (self.stress_weight == 0.0 or super().covers(temperature))
 
     def refusal(self, temperature: float) -> str:
-        """Return why the law does not hold at a bulk `temperature` [K], or an empty text."""
         said = self.in_contacts.refusal(temperature) if self.contact_weight > 0.0 else ""
         if said or self.beyond_fit == "extrapolate" or self.covers(temperature):
             return said

@@ -139,7 +139,6 @@ class Arrhenius:
 
     @property
     def most_exposure(self) -> float:
-        """Largest exposure [1/s] per test time that the supply of additive allows."""
         return self.supply_rate / self.full_thickness
 
     def rate(self, temperature: Numbers) -> Numbers:
@@ -217,7 +216,6 @@ class Arrhenius:
         return low - temperature <= _BEYOND and temperature - high <= _BEYOND
 
     def refusal(self, temperature: float) -> str:
-        """Return why the law does not hold at a bulk `temperature` [K], or an empty text."""
         if self.beyond_fit == "extrapolate" or self.covers(temperature):
             return ""
         low, high = self._ends

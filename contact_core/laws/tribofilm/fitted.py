@@ -164,7 +164,6 @@ class Ghanbarzadeh(_Unabraded):
 
     @property
     def most_exposure(self) -> float:
-        """Largest exposure [1/s] per test time that the supply of additive allows."""
         return self.supply_rate / self.full_thickness
 
     def rate(self, temperature: Temperature) -> Temperature:
@@ -217,7 +216,6 @@ class Ghanbarzadeh(_Unabraded):
         return _covers(self.fit_temperature, temperature)
 
     def refusal(self, temperature: float) -> str:
-        """Return why the law does not hold at a bulk `temperature` [K], or an empty text."""
         if self.beyond_fit == "extrapolate" or self.covers(temperature):
             return ""
         changed = "changes the rate by +-6 % only between 60 and 100 degC: T enters by k_B T / h alone"
@@ -260,7 +258,6 @@ class Andersson(_Unabraded):
 
     @property
     def most_exposure(self) -> float:
-        """Largest exposure [W/m2] per test time that the supply of additive allows."""
         return self.supply_rate / self.growth_per_energy if self.growth_per_energy > 0.0 else math.inf
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
@@ -290,7 +287,6 @@ class Andersson(_Unabraded):
         return _covers(self.fit_temperature, temperature)
 
     def refusal(self, temperature: float) -> str:
-        """Return why the law does not hold at a bulk `temperature` [K], or an empty text."""
         if self.beyond_fit == "extrapolate" or self.covers(temperature):
             return ""
         return _refusal(self.fit_temperature, temperature, "leaves the rate as it is: the law has no temperature in it")

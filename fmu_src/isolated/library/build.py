@@ -1,7 +1,6 @@
 """Build the library of isolated FMUs: python -m fmu_src.isolated.library.build [--platform ...].
 
-The committed libraries are built by zig (pip install tribofmu[native]), which supports every platform and old C
-libraries: equal sources and versions of zig give equal bytes on any machine. gcc serves to try a change on Linux.
+The committed ones are built by zig: equal sources and versions give equal bytes. gcc serves to try a change on Linux.
 """
 
 import argparse

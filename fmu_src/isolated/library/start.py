@@ -1,7 +1,6 @@
 """Serve the instances of an FMU; run by the FMU's library in the Python in which tribofmu is installed.
 
-With --pipe it serves one instance over its standard streams. Otherwise it leaves the host's children and forks a worker
-for each instance, on orders from the library's socket.
+With --pipe one instance over its standard streams; otherwise by a worker forked for each, on orders from a socket.
 """
 
 import contextlib

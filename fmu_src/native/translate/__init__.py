@@ -19,7 +19,6 @@
     arrays        what a law gives for each element of an array
     rolled        loops in place of what is written out for each node of a sum
     paired        two powers in one call
-    declarations  variables begin with their first value
     passes        what is made of the statements of a C function
     interpreter   statements of Python
     functions     C functions: one for each way in which a Python function is used
@@ -32,20 +31,3 @@ from .code import c_type, declared, wrapped
 from .grids import Stored
 from .translator import Entry, Translator
 from .values import Num, Untranslatable, array_kind, is_number, leaves, literal, parts, replaced
-
-__all__ = [
-    "Entry",
-    "Num",
-    "Stored",
-    "Translator",
-    "Untranslatable",
-    "array_kind",
-    "c_type",
-    "declared",
-    "is_number",
-    "leaves",
-    "literal",
-    "parts",
-    "replaced",
-    "wrapped",
-]

@@ -126,7 +126,6 @@ def closed(text: str, start: int) -> int:
 
 
 def operands(text: str) -> list[str]:
-    """Return the operands of a call."""
     found, depth = [""], 0
     for sign in text:
         depth += {"(": 1, ")": -1}.get(sign, 0)
@@ -138,7 +137,6 @@ def operands(text: str) -> list[str]:
 
 
 def used(block: Block) -> set[str]:
-    """Return all names that a block reads."""
     found: set[str] = set()
     for statement in block:
         if isinstance(statement, If):
@@ -202,7 +200,6 @@ def _needed(body: Block, live: set[str]) -> set[str]:
 
 
 def printed(block: Block, depth: int = 1) -> list[str]:
-    """Return the lines of a block."""
     lines: list[str] = []
     for statement in block:
         if isinstance(statement, Let):
@@ -234,7 +231,6 @@ def quoted(text: str) -> str:
 
 
 def comment(lines: Sequence[str]) -> list[str]:
-    """Return lines as a comment."""
     cut = [part for line in lines for part in textwrap.wrap(line, _WIDTH - 6, break_on_hyphens=False)]
     return [f"{'   ' if i else '/* '}{line}{' */' if i == len(cut) - 1 else ''}" for i, line in enumerate(cut)]
 

@@ -45,7 +45,6 @@ def compared(unit: Writer, sign: str, one: Any, other: Any) -> Derived:
 
 
 def inverted(unit: Writer, grid: Grid) -> Derived:
-    """Return what is not."""
     return elementwise(unit, lambda x: ~x if isinstance(x, Num) else not x, [grid], costs=False)
 
 

@@ -1,7 +1,6 @@
 """Arrays of numbers at run time: what they are in C, and their elements, views and loops.
 
-`Stored` lies in a C array, row after row. `View` picks elements of one, `Derived` computes each where it is asked for.
-Names, parameters and results are stored ones.
+`Stored` lies in a C array, row after row; `View` picks elements of one; `Derived` computes each where it is asked for.
 """
 
 import math
@@ -30,20 +29,16 @@ class Grid(values.Grid):
 
     @property
     def size(self) -> int:
-        """Number of elements."""
         return math.prod(self.shape)
 
     @property
     def ndim(self) -> int:
-        """Number of axes."""
         return len(self.shape)
 
     def at(self, places: Places) -> Any:
-        """Return an element."""
         raise NotImplementedError
 
     def row(self, k: int) -> "Grid":
-        """Return the part at the first place k."""
         raise NotImplementedError
 
     def setflags(self, *, write: bool) -> None:
@@ -82,16 +77,13 @@ class Stored(Grid):
         return [("", self.data)]
 
     def with_members(self, members: list[Any]) -> "Stored":
-        """Return an array of its shape in another C array."""
         return Stored(self.shape, members[0])
 
     def at(self, places: Places) -> Num:
-        """Return an element."""
         base, place = self.place(places)
         return Num(f"{base}[{place}]", self.kind)
 
     def row(self, k: int) -> Grid:
-        """Return the part at the first place k."""
         return row_of(self, [k])
 
     def place(self, places: Places) -> tuple[str, str]:
@@ -110,7 +102,6 @@ class View(Grid):
         self.base, self.to = base, to
 
     def at(self, places: Places) -> Num:
-        """Return an element."""
         return self.base.at(self.to(places))
 
     def place(self, places: Places) -> tuple[str, str]:
@@ -118,7 +109,6 @@ class View(Grid):
         return self.base.place(self.to(places))
 
     def row(self, k: int) -> Grid:
-        """Return the part at the first place k."""
         return View(self.shape[1:], self.base, lambda places: self.to((k, *places)))
 
 
@@ -130,7 +120,6 @@ class Derived(Grid):
         self.element, self.costs = element, costs
 
     def at(self, places: Places) -> Any:
-        """Return an element."""
         return self.element(places)
 
 
@@ -327,7 +316,6 @@ def aligned(shape: Shape, places: Places) -> Places:
 
 
 def broadcast(unit: Writer, grid: Grid, shape: Shape) -> Grid:
-    """Return an array broadcast to a shape."""
     base = stored(unit, grid) if isinstance(grid, Derived) and grid.costs else grid
     if isinstance(base, Stored):
         return View(shape, base, lambda places: aligned(base.shape, places))

@@ -46,7 +46,6 @@ def _called(name: str, known: Handler) -> Handler:
 
 
 def chosen(test: Any, one: Any, other: Any) -> Any:
-    """Return one number or the other."""
     if not isinstance(test, Num):
         return one if test else other
     kind = "d" if "d" in (kind_of(one), kind_of(other)) else "i"

@@ -1,7 +1,6 @@
 """Two powers in one call, where neither waits for the other: that takes little longer than one of them.
 
-Only the order changes in which a function computes what it names, not what it computes. A power moves to the other one
-if all that it needs is known there.
+Only the order changes in which a function computes: a power moves to another if all that it needs is known there.
 """
 
 import re
@@ -146,7 +145,6 @@ def _sets(item: _Power | _Pair | code.Let | code.Do | code.Give) -> list[str]:
 
 
 def _texts(statement: code.Let | code.Do | code.Give) -> list[str]:
-    """Return the expressions of a statement."""
     if isinstance(statement, code.Give):
         return [value for _, value in statement.members]
     return [statement.value or "" if isinstance(statement, code.Let) else statement.text]

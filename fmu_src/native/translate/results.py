@@ -49,7 +49,6 @@ def holes_in(template: Any) -> list[Num]:
 
 
 def wanted_fields(template: Any, names: list[str]) -> list[str]:
-    """Return their names."""
     return [name for name, each in zip(fields_of(template, names), numbers(template), strict=True) if not each.text]
 
 

@@ -1,9 +1,7 @@
 """Loops in place of copies: weighted sums over nodes, with what was written out for each node.
 
-An array of constants meets numbers at run time element by element. Where a sum over its elements follows, such as a
-quadrature, the statements of all elements become loops over static tables. Elementary functions take whole arrays
-between the loops, two numbers at a time. Other functions have loops of their own, as a processor computes several calls
-at once if they do not wait for each other.
+Where a sum over an array of constants follows, statements of all elements become loops over static tables; elementary
+functions take whole arrays between them, two numbers at a time, other functions have loops of their own.
 """
 
 import re
@@ -198,7 +196,6 @@ class _Nodes:
         return self._of_nodes(column)
 
     def _constant(self, column: tuple[str, ...], name: str) -> str:
-        """Return the constant of a node."""
         if len(set(column)) == 1:
             return column[0]
         if column not in self.tables:

@@ -12,7 +12,6 @@ from .values import Closure
 
 @functools.cache
 def _tree(function: types.FunctionType) -> Any:
-    """Return the syntax tree of a function."""
     source = textwrap.dedent(inspect.getsource(function))
     found = next(
         node
@@ -24,7 +23,6 @@ def _tree(function: types.FunctionType) -> Any:
 
 
 def closure_of(function: types.FunctionType) -> Closure:
-    """Return a function with its tree."""
     cells = function.__closure__ or ()
     names = dict(zip(function.__code__.co_freevars, (cell.cell_contents for cell in cells), strict=True))
     path = f"{function.__module__}.{function.__qualname__}"

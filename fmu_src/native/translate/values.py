@@ -176,7 +176,6 @@ def is_number(value: Any) -> bool:
 
 
 def kind_of(value: Any) -> str:
-    """Return the kind of a number."""
     if isinstance(value, Num):
         return value.kind
     if isinstance(value, bool | np.bool_):
@@ -185,7 +184,6 @@ def kind_of(value: Any) -> str:
 
 
 def as_double(value: Any) -> Num:
-    """Return a number as a double."""
     if isinstance(value, Num) and value.kind != "d":
         return Num(f"(double){value.at_least(UNARY)}", "d", UNARY)
     return literal(value)
@@ -259,7 +257,6 @@ def binary(sign: str, one: Any, other: Any, left: int, right: int) -> Any:
 
 
 def compare(sign: str, one: Any, other: Any) -> Any:
-    """Return a comparison."""
     if not (is_number(one) and is_number(other)):
         return NotImplemented
     kind = "d" if "d" in (kind_of(one), kind_of(other)) else "i"

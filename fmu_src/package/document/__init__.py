@@ -5,7 +5,6 @@
     formulas    the section of equations, from the records of the scene
     interface   sections on the FMU: status, variables, state, log, requirements, licence
     levels      sentences and rows that differ between the fidelity levels
-    measured    measured errors and costs
 
 `measured.toml` has the figures, `signs.svg` and `steps.svg` are the two drawings.
 

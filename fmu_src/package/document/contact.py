@@ -1,8 +1,11 @@
 """Sections on the contact: data of the scene, signs, range of validity, errors and steps."""
 
+import json
 import math
 from collections.abc import Iterable, Iterator
 from importlib.resources import files
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,8 +17,24 @@ from contact_core.scene import Scene, SelfAffine, Surface
 from ...flavours import Flavour
 from ...html.markup import bullets, heading, number, paragraph, table, text
 from ...variables import FIDELITY
-from . import measured
 from .levels import LEVELS
+
+
+class Measured(NamedTuple):
+    """Measured errors or costs; `python -m benchmarks.house.fmu_figures` writes measured.json from docs/measured."""
+
+    title: str
+    command: str  # that measures them
+    measured: str  # date
+    older: bool  # than the code
+    head: list[str]
+    rows: list[list[str]]
+
+
+_FOUND = json.loads(Path(__file__).with_name("measured.json").read_text(encoding="utf-8"))
+ERRORS = {level: tuple(Measured(**each) for each in tables) for level, tables in _FOUND["errors"].items()}
+COSTS = {level: Measured(**each) for level, each in _FOUND["costs"].items()}
+
 
 # levels whose measured errors and costs are those of another: of steps without a block, and outside a map
 _MEASURED = {"auto": "regression", "map": "regression"}
@@ -186,7 +205,7 @@ def errors(scene: Scene) -> Iterator[str]:
         "error_load_ratio is that of contact_load_ratio, absolute. " + LEVELS[scene.film.fidelity].errors
     )
     yield paragraph("Measured errors, and the command of the repository that measures them:")
-    for found in measured.ERRORS[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)]:
+    for found in ERRORS[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)]:
         yield _measured(found)
 
 
@@ -209,7 +228,7 @@ def assumptions(scene: Scene) -> Iterator[str]:
         yield paragraph("The scene has no intervals.")
 
 
-def _measured(found: measured.Table) -> str:
+def _measured(found: Measured) -> str:
     when = f"measured on {found.measured}{', of older code' if found.older else ''}"
     title = f"<p>{text(found.title)} (<code>{text(found.command)}</code>, {when}):</p>"
     return title + table(found.head, found.rows)
@@ -225,4 +244,4 @@ def steps(scene: Scene) -> Iterator[str]:
         "may differ in length; any length is allowed, zero too."
     )
     yield paragraph(LEVELS[scene.film.fidelity].steps(scene))
-    yield _measured(measured.COSTS[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)])
+    yield _measured(COSTS[_MEASURED.get(scene.film.fidelity, scene.film.fidelity)])

@@ -1,7 +1,10 @@
 """Sections on the FMU as a component: status, variables, state, log, requirements, check and licence."""
 
 import math
-from collections.abc import Iterator
+import tomllib
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
 
 import contact_core
 from contact_core.scene import Scene
@@ -10,80 +13,12 @@ from contact_core.state import RangeFlag
 from ...flavours import Flavour, Version
 from ...html.markup import bullets, heading, paragraph, table
 from ...runtime.guarded import LOG_CATEGORIES
-from ...variables import FIDELITY, INITIAL_STATE, Variable
+from ...variables import INITIAL_STATE, Variable
 from .. import evidence, licences
 from ..describe import variables_of
 
 _KINDS = (("Inputs", "input"), ("Outputs", "output"), ("Parameters", "parameter"), ("Time", "independent"))
-_OK, _WARNING, _DISCARD, _ERROR = "OK", "Warning", "Discard", "Error"
-_UNUSABLE: dict[Flavour, str] = {"isolated": _WARNING, "embedded": _OK, "native": _WARNING}
-_REFUSED: dict[Flavour, str] = {"isolated": _ERROR, "embedded": _OK, "native": _ERROR}
-_PARAMETER: dict[Flavour, tuple[str, str, str]] = {
-    "isolated": (
-        f"an unusable parameter or {INITIAL_STATE}",
-        _WARNING,
-        "the same at every step until a reset; the FMU never runs with other values than the given ones",
-    ),
-    "native": (
-        f"a parameter, {INITIAL_STATE} included, set to another value than its start value",
-        _ERROR,
-        "nothing changes; parameters are part of the C code: build the FMU anew from a scene with that value",
-    ),
-}
-_PARAMETER["embedded"] = (_PARAMETER["isolated"][0], _OK, _PARAMETER["isolated"][2])
-_AFTER_STATE: dict[Flavour, str] = {
-    "isolated": "valid is false; nothing else changes",
-    "embedded": "valid is false; nothing else changes",
-    "native": "nothing changes",
-}
-_FAILURES: dict[Flavour, tuple[tuple[str, str, str], ...]] = {
-    "isolated": (
-        (
-            "unexpected error in the model",
-            _ERROR,
-            "valid is false; state and outputs do not change; the log has its traceback; the host continues",
-        ),
-        (
-            "the process of the model ends, or does not answer within TRIBOFMU_TIMEOUT",
-            _ERROR,
-            "the host continues; restore a state, or reset, to continue in a new process",
-        ),
-    ),
-    "embedded": (
-        (
-            "unexpected error in the model",
-            _OK,
-            "valid is false; state and outputs do not change; the log has its traceback",
-        ),
-    ),
-    "native": (
-        (
-            "a directional derivative that cannot be computed at these inputs",
-            _DISCARD,
-            "nothing changes, the log gives the reason",
-        ),
-    ),
-}
-_LOGGING: dict[Flavour, str] = {
-    "isolated": (
-        "The FMU always reports errors. It reports warnings until the host switches logging off by "
-        "{fmi}SetDebugLogging or selects other categories, and notes (status {fmi}OK) if the host has switched "
-        "logging on."
-    ),
-    "embedded": "The FMU sends messages if the host has switched logging on, and warnings and errors only as messages.",
-}
-_LOGGING["native"] = _LOGGING["isolated"]
-_PROCESS: dict[Flavour, str] = {
-    "isolated": "The FMU starts a Python process of its own for the model; the host needs no Python.",
-    "embedded": "The model runs in the Python of the host.",
-}
-
-_SETTABLE = f"Set them before initialisation ends; afterwards all but {FIDELITY} are fixed until a reset."
-_OF_PARAMETERS: dict[Flavour, str] = {
-    "isolated": _SETTABLE,
-    "embedded": _SETTABLE,
-    "native": "They are part of the C code, for information: no other values than these can be set.",
-}
+_TEXTS: dict[str, dict[str, Any]] = tomllib.loads(Path(__file__).with_name("interface.toml").read_text("utf-8"))
 
 
 def status(flavour: Flavour, fmi: Version) -> Iterator[str]:
@@ -95,25 +30,24 @@ def status(flavour: Flavour, fmi: Version) -> Iterator[str]:
     yield table(("value", "name", "meaning"), ((flag.value, flag.name, flag.text) for flag in RangeFlag))
 
 
-def _events(flavour: Flavour) -> tuple[tuple[str, str, str], ...]:
-    """Return event, status and result of every row."""
-    return (
-        ("a usable step or value", _OK, "valid is true"),
-        (
-            "an unusable input or step size, a contact that cannot be solved",
-            _UNUSABLE[flavour],
-            "valid is false; time advances, state and outputs do not change, the log gives the reason. The next "
-            "step that can be computed sets valid to true again",
-        ),
-        _PARAMETER[flavour],
-        (
-            "a step that does not begin at the end of the last one, or that ends beyond the stop time",
-            _REFUSED[flavour],
-            "valid is false; nothing changes, the log gives the reason",
-        ),
-        ("a state that cannot be used", _REFUSED[flavour], f"{_AFTER_STATE[flavour]}, the log gives the reason"),
-        *_FAILURES[flavour],
+def _events(flavour: Flavour) -> Iterator[Sequence[str]]:
+    """Yield event, status and result of every row."""
+    own = _TEXTS[flavour]
+    yield "a usable step or value", "OK", "valid is true"
+    yield (
+        "an unusable input or step size, a contact that cannot be solved",
+        own["unusable"],
+        "valid is false; time advances, state and outputs do not change, the log gives the reason. The next "
+        "step that can be computed sets valid to true again",
     )
+    yield own["parameter"]
+    yield (
+        "a step that does not begin at the end of the last one, or that ends beyond the stop time",
+        own["refused"],
+        "valid is false; nothing changes, the log gives the reason",
+    )
+    yield "a state that cannot be used", own["refused"], f"{own['after_state']}, the log gives the reason"
+    yield from own["failures"]
 
 
 def variable_tables(scene: Scene, flavour: Flavour) -> Iterator[str]:
@@ -126,7 +60,7 @@ def variable_tables(scene: Scene, flavour: Flavour) -> Iterator[str]:
     for title, causality in _KINDS:
         yield heading(title)
         if causality == "parameter":
-            yield paragraph(_OF_PARAMETERS[flavour])
+            yield paragraph(_TEXTS[flavour]["of_parameters"])
         rows = (_row(v) for v in listed if v.causality == causality)
         yield table(("name", "unit", "minimum", "maximum", "start", "meaning"), rows)
 
@@ -159,7 +93,7 @@ def state(flavour: Flavour, fmi: Version) -> Iterator[str]:
 
 def log(flavour: Flavour, fmi: Version) -> Iterator[str]:
     """Yield the section on log messages."""
-    yield paragraph(f"{_LOGGING[flavour].format(fmi=f'fmi{fmi}')} Categories:")
+    yield paragraph(f"{_TEXTS[flavour]['logging'].format(fmi=f'fmi{fmi}')} Categories:")
     yield table(("category", "messages"), LOG_CATEGORIES.items())
 
 
@@ -170,8 +104,8 @@ def requirements(flavour: Flavour) -> Iterator[str]:
         return
     exact = " and ".join(f"{name} {version}" for name, version in licences.exact().items())
     yield paragraph(
-        f"{_PROCESS[flavour]} It needs Python {licences.python()} with exactly {exact} and the packages that pip "
-        f"installs with them: {', '.join(licences.dependencies())}. externalDependencies.txt lists the same."
+        f"{_TEXTS[flavour]['process']} It needs Python {licences.python()} with exactly {exact} and the packages that "
+        f"pip installs with them: {', '.join(licences.dependencies())}. externalDependencies.txt lists the same."
     )
     yield table(("environment variable", "meaning"), licences.VARIABLES[flavour].items())
 

@@ -29,11 +29,6 @@ class Race:
         """Sum of the four curvatures [1/m]."""
         return 1.0 / self.radius_x + 1.0 / self.radius_y
 
-    @property
-    def curvature_difference(self) -> float:
-        """F(rho): difference of the curvatures along and across over their sum."""
-        return (1.0 / self.radius_x - 1.0 / self.radius_y) / self.curvature_sum
-
     @cached_property
     def unit(self) -> Hertz:
         """The contact at 1 N."""
@@ -109,11 +104,6 @@ class BallBearingGeometry:
         return self.contact_angle or math.acos(1.0 - play)
 
     @property
-    def endplay(self) -> float:
-        """Way of the inner ring from one axial stop to the other [m]."""
-        return 2.0 * self.separation * math.sin(self.free_angle)
-
-    @property
     def groove_centre(self) -> tuple[float, float]:
         """Centre of the inner groove before the ring moves, (axial, radial) from that of the outer one [m]."""
         a, angle = self.separation, self.contact_angle
@@ -137,12 +127,10 @@ class BallBearingGeometry:
 
     @cached_property
     def inner(self) -> Race:
-        """The inner race."""
         return self._race("inner", self.conformity_inner, -1.0)
 
     @cached_property
     def outer(self) -> Race:
-        """The outer race."""
         return self._race("outer", self.conformity_outer, 1.0)
 
     def race(self, name: RaceName) -> Race:

@@ -31,10 +31,8 @@ from .equilibrium import Equilibrium
 from .geometry import BallBearingGeometry, RaceName
 
 NEUTRAL_COULOMB = 2.0 * math.sin(math.pi / 18.0)  # y0 / b that halves the load: 3 s - s^3 = 1
-NEUTRAL_VISCOUS = math.sqrt(0.2)  # that has no net sliding
-# mean of |y0^2 - y^2| / b^2, weighted with the pressure, and rms
+# mean of |y0^2 - y^2| / b^2, weighted with the pressure
 SLIDE_COULOMB = 0.2 - NEUTRAL_COULOMB**2 + 2.0 * NEUTRAL_COULOMB**3 - 0.4 * NEUTRAL_COULOMB**5
-SLIDE_VISCOUS = math.sqrt(3.0 / 35.0 - 0.04)
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ import numpy as np
 
 from contact_core.errors import ContactError
 from contact_core.kernels.arrays import Array
-from contact_core.quantities import TABLE, parameter
+from contact_core.quantities import parameter
 
-from ...parts.part import Input, Output, Part, State, Values, indexed
+from ...parts.part import Input, Output, Part, State, Values, indexed, of_contact
 from .equilibrium import Equilibrium, RingLoads, solve
 from .geometry import RACES, BallBearingGeometry, Race, RaceName
 from .kinematics import Motion, motion
@@ -61,7 +61,6 @@ class LoadClass(NamedTuple):
 
     @property
     def name(self) -> str:
-        """Name of its contact."""
         return contact_name(self.race, self.level)
 
 
@@ -96,16 +95,14 @@ class BallBearing(Part):
     )
 
     def check(self) -> None:
-        """Raise SceneError if the dimensions do not go together."""
         self.dimensions.check()
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """Loads and speed of the shaft, then each quantity of the contacts of all classes."""
         return (
             *_SHAFT,
             *(
-                Input(**_alike(name, race, k, nominal))
+                Input(**_of_class(name, race, k, nominal))
                 for race in RACES
                 for name, nominal in RECEIVED.items()
                 for k in self._numbers
@@ -114,7 +111,6 @@ class BallBearing(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Outputs for each load class, of the bearing as a whole, and of its balls."""
 
         def row(name: str, symbol: str, unit: str, nominal: float, text: str, *, by: tuple[str, ...] = _BY_LOAD,
                 display: str = "") -> Output:  # fmt: skip
@@ -156,7 +152,7 @@ class BallBearing(Part):
         """Yield the outputs for the load classes of a race, and the numbers of balls that they stand for."""
         for name, nominal in SENT.items():
             for k in self._numbers:
-                yield Output(**_alike(name, race, k, nominal), direct=_BY_LOAD)
+                yield Output(**_of_class(name, race, k, nominal), direct=_BY_LOAD)
         for k in self._numbers:
             text = f"balls in class {k} of the {race} race"
             yield Output(indexed(f"count_{race}", k), "Z_k", "1", text, direct=_BY_LOAD)
@@ -209,7 +205,6 @@ class BallBearing(Part):
         return classify(self.dimensions, self.dimensions.race(race), loads, moving, self.levels)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return the value of each of `responses`, for the inputs as they are."""
         rest, speed = self._solved(state, inputs), inputs["speed"]
         classes = dict(self._classes(rest))
         torque = self._torque(classes, inputs, speed)
@@ -261,7 +256,6 @@ class BallBearing(Part):
         return found
 
     def _whole(self, rest: Equilibrium, speed: float) -> dict[str, float]:
-        """Return the bearing as a whole, and each ball."""
         driven, inner, outer = rest.load_inner > 0.0, self.dimensions.inner, self.dimensions.outer
         largest = float(rest.load_inner.max()), float(rest.load_outer.max())
         pressures = [pressure(race, load) for race, load in zip((inner, outer), largest, strict=True)]
@@ -285,15 +279,5 @@ def pressure(race: Race, load: float) -> float:
     return race.unit.pressure_max * race.unit.growth(load)[0]
 
 
-def _alike(name: str, race: RaceName, k: int, nominal: float) -> dict[str, Any]:
-    """Return the variable for a quantity of the contact of class k."""
-    q = TABLE[name]
-    return {
-        "name": indexed(f"{name}_{race}", k),
-        "symbol": q.symbol,
-        "unit": q.unit,
-        "text": f"{q.text}; class {k} of the {race} race",
-        "nominal": nominal,
-        "display": q.display,
-        "relative": q.relative,
-    }
+def _of_class(name: str, race: RaceName, k: int, nominal: float) -> dict[str, Any]:
+    return of_contact(name, indexed(f"{name}_{race}", k), f"class {k} of the {race} race", nominal)

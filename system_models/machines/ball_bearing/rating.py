@@ -26,17 +26,6 @@ FATIGUE_PRESSURE = 1.5e9  # Pa: below Hertz's largest pressure of that good stee
 LEAST_KAPPA, MOST_KAPPA = 0.1, 4.0
 LEAST_FACTOR, MOST_FACTOR = 0.1, 50.0  # of a_ISO
 
-# Contamination factor e_C by cleanliness, ISO 281, Table 13: from, to for pitch diameters below 100 mm, and from there
-CONTAMINATION = {
-    "extreme cleanliness": ((1.0, 1.0), (1.0, 1.0)),
-    "high cleanliness": ((0.6, 0.8), (0.8, 0.9)),
-    "normal cleanliness": ((0.5, 0.6), (0.6, 0.8)),
-    "slight contamination": ((0.3, 0.5), (0.4, 0.6)),
-    "typical contamination": ((0.1, 0.3), (0.2, 0.4)),
-    "severe contamination": ((0.0, 0.1), (0.0, 0.1)),
-    "very severe contamination": ((0.0, 0.0), (0.0, 0.0)),
-}
-
 # a_ISO = 0.1 [1 - (2.5671 - A / kappa^B)^0.83 (e_C C_u / P)^(1/3)]^-9.3: kappa up to, A, B
 _A_ISO = ((0.4, 2.2649, 0.054381), (1.0, 1.9987, 0.19087), (math.inf, 1.9987, 0.071739))
 

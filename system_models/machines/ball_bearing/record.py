@@ -7,7 +7,6 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from contact_core import OperatingPoint, advance, initial_state
@@ -15,8 +14,7 @@ from contact_core.kernels.arrays import Array, Mask
 from contact_core.laws.viscosity import kinematic_viscosity
 
 from ...parts.part import indexed
-from ..assembly import Assembly
-from ..report import heat_stored
+from ..report import Recorded, heat_stored
 from .equilibrium import RingLoads, solve
 from .geometry import RACES, RaceName
 from .part import BallBearing, contact_name
@@ -40,7 +38,6 @@ class ContactClass(NamedTuple):
 
     @property
     def contact(self) -> str:
-        """Name of its contact."""
         return contact_name(self.race, self.level)
 
 
@@ -53,27 +50,14 @@ class Passage(NamedTuple):
 
 
 @dataclass(frozen=True)
-class BearingRun:
-    """The dataset of a run beside its assembly; rows are those of `time`."""
-
-    assembly: Assembly
-    dataset: xr.Dataset
+class BearingRun(Recorded):
+    """A run of a bearing."""
 
     @property
     def bearing(self) -> BallBearing:
-        """The bearing."""
         part = self.assembly.parts["bearing"]
         assert isinstance(part, BallBearing)
         return part
-
-    @property
-    def time(self) -> Array:
-        """[s]."""
-        return self.of("time")
-
-    def of(self, name: str) -> Array:
-        """Return a variable of the dataset."""
-        return np.asarray(self.dataset.variables[name].values, dtype=np.float64)
 
     @property
     def classes(self) -> tuple[ContactClass, ...]:
@@ -127,7 +111,6 @@ class BearingRun:
         return values[np.maximum(np.searchsorted(times, self.time, side="left") - 1, 0)]
 
     def ring_loads(self, row: int) -> RingLoads:
-        """Return loads on the inner ring at a row."""
         names = ("force_x", "force_y", "force_z", "moment_y", "moment_z")
         return RingLoads(*(float(self.scheduled(name)[row]) for name in names))
 

@@ -14,7 +14,7 @@ Sources: Ioannides & Harris, J. Tribology 107 (1985) 367; Lundberg & Palmgren, A
 (1947) (both from memory); exponents are theirs for ball bearings. ISO 281's limit, Hertz's pressure of 1500 MPa.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -67,35 +67,6 @@ def _integral(values: Array, depths: Array) -> float:
 def factor(changed: float, smooth: float) -> float:
     """Return how many times the life of a smooth contact is, by both risks; infinite without risk."""
     return float((smooth / changed) ** (1.0 / WEIBULL)) if changed > 0.0 else np.inf
-
-
-def passing(
-    instants: Iterable[tuple[Array, Array, int]], spacing: float, depths: Array, poisson: float, keep: int
-) -> Array:
-    """Return the largest von Mises stress [keep, nz, ny] of columns of material that pass under solved instants [Pa].
-
-    Parameters
-    ----------
-    instants : pressure and shear stress along x on the body [ny, nx], in Pa, and the nodes by which it has moved on
-        along +x since the first; no body moves by more than a node from one to the next.
-    spacing, depths : of the nodes, and [nz] below the surface, in m.
-    keep : columns, from the first on that enters the grid after the first instant. They have all left it when the body
-        has moved by `keep` and the grid's columns.
-
-    """
-    found, below = np.zeros(0), None
-    for pressure, shear, moved in instants:
-        if below is None:
-            found = np.zeros((keep, depths.size, pressure.shape[0]))
-            below = Subsurface((pressure.shape[0], pressure.shape[1]), spacing, depths, poisson, "pyfftw")
-        entered = moved - np.arange(
-            pressure.shape[1]
-        )  # way of the body when what is at each node now came to the first
-        here = (entered >= 1) & (entered <= keep)
-        for k, layer in enumerate(below.layers(pressure, shear)):
-            rows = entered[here] - 1
-            found[rows, k] = np.maximum(found[rows, k], von_mises(layer)[:, here].T)
-    return found
 
 
 @dataclass(frozen=True)

@@ -7,29 +7,7 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-import scipy  # its parts are loaded at their first use
-
 from .geometry import BallBearingGeometry
-
-
-def sjovall(extent: float) -> tuple[float, float]:
-    """Return the radial and axial load integral J_r, J_a of point contacts for an extent epsilon > 0 of the load zone.
-
-    J_r = (1 / pi) times the integral of [1 - (1 - cos(psi)) / (2 epsilon)]^1.5 cos(psi) over psi, J_a without cos(psi).
-
-    With many balls the most loaded one carries F_r / (Z J_r cos a) = F_a / (Z J_a sin a).
-    Source: Sjovall, Teknisk Tidskrift (1933), in the form of Harris & Kotzalas, Essential Concepts of Bearing
-    Technology, 5th ed., 2006, chapter 7.
-    """
-    last = math.acos(1.0 - 2.0 * extent) if extent < 1.0 else math.pi
-
-    def carried(angle: float) -> float:
-        return float(max(1.0 - (1.0 - math.cos(angle)) / (2.0 * extent), 0.0) ** 1.5)
-
-    quad = scipy.integrate.quad
-    radial, _ = quad(lambda angle: carried(angle) * math.cos(angle), 0.0, last, epsabs=1e-12)
-    axial, _ = quad(carried, 0.0, last, epsabs=1e-12)
-    return radial / math.pi, axial / math.pi
 
 
 @dataclass(frozen=True)
@@ -150,23 +128,6 @@ def _skf_geometry(bearing: CatalogueBearing, radial: float, axial: float, n: flo
         r1 * dm**1.96 * (radial + r2 / sine * axial) ** 0.54,
         s1 * dm**-0.145 * (radial**5 + s2 * dm**1.5 / sine * axial**4) ** (1 / 3),
     )
-
-
-def skf_drag(bearing: CatalogueBearing, speed: float, viscosity: float, level: float, factor: float) -> float:
-    """Return the drag torque in an oil bath after SKF [N m], which `skf_torque` leaves out.
-
-    speed [rad/s], kinematic viscosity [m2/s], oil level above the lowest point of the outer raceway [m], factor V_M of
-    the catalogue's diagram for that level over the mean diameter. Source: as of `skf_torque`.
-    """
-    dm, n, nu = bearing.mean_diameter, speed * 30.0 / math.pi, viscosity * 1e6
-    if n == 0.0 or level <= 0.0:
-        return 0.0
-    slender = (bearing.outside + bearing.bore) / (bearing.outside - bearing.bore)
-    wet = 2.0 * math.acos(max(1.0 - 1e3 * level / (0.6 * dm), -1.0))
-    turning = math.sin(0.5 * wet) if wet <= math.pi else 1.0
-    shape = 0.36 * dm**2 * (wet - math.sin(wet)) * 0.05 * bearing.series.k_z * slender
-    balls = 0.4 * factor * bearing.series.k_z * slender * 1e-12 * dm**5 * n**2
-    return 1e-3 * (balls + 1.093e-7 * n**2 * dm**3 * (n * dm**2 * turning / nu) ** -1.379 * shape)
 
 
 def palmgren_torque(bearing: CatalogueBearing, radial: float, axial: float, speed: float, viscosity: float) -> Torque:

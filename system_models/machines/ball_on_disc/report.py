@@ -179,7 +179,6 @@ def _energy(assembly: Assembly, dataset: xr.Dataset) -> Iterator[str]:
 
 
 def pictures(assembly: Assembly, dataset: xr.Dataset) -> dict[str, Sheet]:
-    """Return the pictures by name."""
     return {"overview": overview(assembly, dataset)}
 
 

@@ -85,7 +85,6 @@ def turning(parts: Mapping[str, Part], signals: Mapping[str, float]) -> dict[str
 
 
 def _contact(table: Mapping[str, Any], cam: CamFollower, station: Station) -> Contact:
-    """Return the contact at a station."""
     scene = scene_of(table)
     tracks = cam.track_lengths(station, scene.film.domain)
     return Contact(scene, {f"geometry.track_length_{i}": length for i, length in enumerate(tracks, 1)})

@@ -9,9 +9,9 @@ import numpy as np
 
 from contact_core.errors import SceneError
 from contact_core.kernels.arrays import Array
-from contact_core.quantities import TABLE, parameter
+from contact_core.quantities import parameter
 
-from ...parts.part import Input, Output, Part, State, Values, indexed
+from ...parts.part import Input, Output, Part, State, Values, indexed, of_contact
 from .profile import CamProfile, Station
 
 # outputs of contacts that the cam receives and inputs of contacts that it sends, with typical values in SI
@@ -70,7 +70,6 @@ class CamFollower(Part):
     mass: float = parameter("kg", "m, mass that moves with the follower", least=0.0, most=100.0)
 
     def check(self) -> None:
-        """Raise SceneError if the profile makes no cam for a flat follower."""
         wrong = [*self.lobe.wrong()]
         if wrong:
             raise SceneError(" ".join(wrong))
@@ -93,15 +92,13 @@ class CamFollower(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """Speed of the cam, then each quantity of the contacts at all stations."""
         return (
             Input("speed", "w", "rad/s", "angular speed of the cam", nominal=100.0, display="rpm"),
-            *(Input(**_alike(name, k, nominal)) for name, nominal in RECEIVED.items() for k in self._numbers),
+            *(Input(**_at_station(name, k, nominal)) for name, nominal in RECEIVED.items() for k in self._numbers),
         )
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Load, speeds and radius of each station, then means over a turn."""
         friction, loss, rolling, heat_1, heat_2 = map(self._all, RECEIVED)
         speed = ("speed",)
 
@@ -110,7 +107,7 @@ class CamFollower(Part):
 
         return (
             *(
-                Output(**_alike(name, k, nominal), direct=() if name == "radius_x" else speed)
+                Output(**_at_station(name, k, nominal), direct=() if name == "radius_x" else speed)
                 for name, nominal in SENT.items()
                 for k in self._numbers
             ),
@@ -123,15 +120,12 @@ class CamFollower(Part):
         )
 
     def initial(self, inputs: Values) -> State:
-        """Return no state."""
         return ()
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Return no state."""
         return ()
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return the value of each of `responses`, for the inputs as they are."""
         place, speed = self._places, inputs["speed"]
         found = {name: np.array([inputs[key] for key in self._all(name)]) for name in RECEIVED}
         load = self.preload + self.stiffness * place["lift"] + self.mass * speed**2 * place["lift_second"]
@@ -169,15 +163,5 @@ class CamFollower(Part):
         return max(turn * station.radius_x, least), max(turn * station.travel, least)
 
 
-def _alike(name: str, k: int, nominal: float) -> dict[str, Any]:
-    """Return the variable for a quantity of the contact at station k."""
-    q = TABLE[name]
-    return {
-        "name": indexed(name, k),
-        "symbol": q.symbol,
-        "unit": q.unit,
-        "text": f"{q.text}; station {k}",
-        "nominal": nominal,
-        "display": q.display,
-        "relative": q.relative,
-    }
+def _at_station(name: str, k: int, nominal: float) -> dict[str, Any]:
+    return of_contact(name, indexed(name, k), f"station {k}", nominal)

@@ -17,7 +17,6 @@ _BODIES = ("cam", "follower")
 
 
 def sheets(assembly: Assembly, dataset: xr.Dataset) -> dict[str, Sheet]:
-    """Return the pictures by name."""
     record = Record(assembly, dataset)
     title = dataset.attrs.get("title", "")
     return {

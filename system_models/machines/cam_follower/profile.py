@@ -90,13 +90,6 @@ class CamProfile:
         found = self.at(angle)
         return self.base_radius + found.lift + found.lift_second
 
-    def contour(self, angle: Array) -> tuple[Array, Array]:
-        """Return the points [m] of the contour, in axes that turn with the cam, x through the nose."""
-        found = self.at(angle)
-        distance, along = self.base_radius + found.lift, found.slope
-        cosine, sine = np.cos(angle), np.sin(angle)
-        return distance * cosine - along * sine, distance * sine + along * cosine
-
     def stations(self, count: int) -> tuple[Station, ...]:
         """Return `count` stations in the middles of equal parts of the event, and one for the base circle."""
         angles = self.half_event * (2.0 * (np.arange(count) + 0.5) / count - 1.0)

@@ -4,35 +4,24 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import xarray as xr
 
 from contact_core.kernels.arrays import Array
 
-from ..assembly import Assembly
-from ..report import heat_stored
+from ..report import Recorded, heat_stored
 from .part import CamFollower, contact_name
 
 _TURNS = 1.0  # rad/s: less is standing still
 
 
 @dataclass(frozen=True)
-class Record:
-    """A run of a cam beside its assembly; rows are those of `time`."""
-
-    assembly: Assembly
-    dataset: xr.Dataset
+class Record(Recorded):
+    """A run of a cam."""
 
     @cached_property
     def cam(self) -> CamFollower:
-        """The cam as it was built."""
         cam = self.assembly.parts["cam"]
         assert isinstance(cam, CamFollower)
         return cam
-
-    @property
-    def time(self) -> Array:
-        """Time of the rows [s]."""
-        return np.asarray(self.dataset["time"].values)
 
     @cached_property
     def names(self) -> list[str]:
@@ -55,10 +44,6 @@ class Record:
         """The last row in which the cam turns; the last of all if it never does."""
         rows = np.flatnonzero(np.abs(self.of("shaft.speed")) > _TURNS)
         return int(rows[-1]) if len(rows) else len(self.time) - 1
-
-    def of(self, name: str) -> Array:
-        """Return a variable "part.output" by row."""
-        return np.asarray(self.dataset.variables[name].values)
 
     def along(self, quantity: str) -> Array:
         """Return a quantity of the contacts by row and station, the base circle last."""

@@ -8,9 +8,8 @@ import numpy as np
 
 from contact_core.errors import SceneError
 from contact_core.kernels.arrays import Array
-from contact_core.quantities import TABLE
 
-from ...parts.part import Input, Output, Part, State, Values, indexed
+from ...parts.part import Input, Output, Part, State, Values, indexed, of_contact
 from .geometry import SpurGearPair, fixed
 from .path import Stations, radius, stations_of, surface_speeds, track_lengths
 from .sharing import Sharing, loads
@@ -69,7 +68,6 @@ class GearMesh(Part):
     stations: int = fixed("", "contacts along the path", least=3, most=9999, default=21)
 
     def check(self) -> None:
-        """Raise SceneError if gears, sharing and stations do not go together."""
         wrong = [*self.pair.wrong()] or [*self.load_sharing.wrong(self.pair)]
         if wrong:
             raise SceneError(" ".join(wrong))
@@ -96,7 +94,6 @@ class GearMesh(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """Torque, speeds and temperatures of the gears, then each quantity of the contacts at all stations."""
         hot: dict[str, Any] = {"nominal": 350.0, "display": "degC", "start": 363.15}
         return (
             Input("torque", "T_1", "N m", "torque of the pinion that the teeth transmit", nominal=100.0),
@@ -106,12 +103,11 @@ class GearMesh(Part):
             ),
             Input("body_temperature_1", "T_b1", "K", "bulk temperature of the pinion", **hot),
             Input("body_temperature_2", "T_b2", "K", "bulk temperature of the wheel", **hot),
-            *(Input(**self._alike(name, k, nominal)) for name, nominal in RECEIVED.items() for k in self._numbers),
+            *(Input(**_at_station(name, k, nominal)) for name, nominal in RECEIVED.items() for k in self._numbers),
         )
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Load, speeds and temperature of each station, then means over a mesh cycle of all pairs in contact."""
         friction, loss, rolling, flash, heat_1, heat_2 = map(self._all, RECEIVED)
         torque, speeds, bulk = ("torque",), ("speed_1", "speed_2"), ("body_temperature_1", "body_temperature_2")
         power = (*torque, "speed_1")
@@ -121,7 +117,7 @@ class GearMesh(Part):
 
         return (
             *(
-                Output(**self._alike(name, k, nominal), direct=(_CAUSE[name],))
+                Output(**_at_station(name, k, nominal), direct=(_CAUSE[name],))
                 for name, nominal in SENT.items()
                 for k in self._numbers
             ),
@@ -154,29 +150,13 @@ class GearMesh(Part):
     def _numbers(self) -> range:
         return range(1, self.stations + 1)
 
-    @staticmethod
-    def _alike(name: str, k: int, nominal: float) -> dict[str, Any]:
-        """Return the variable for a quantity of the contact at station k."""
-        q = TABLE[name]
-        return {
-            "name": indexed(name, k),
-            "symbol": q.symbol,
-            "unit": q.unit,
-            "text": f"{q.text}; station {k}",
-            "nominal": nominal,
-            "relative": q.relative,
-        }
-
     def initial(self, inputs: Values) -> State:
-        """Return no state."""
         return ()
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Return no state."""
         return ()
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return the value of each of `responses`, for the inputs as they are."""
         found = {name: np.array([inputs[key] for key in self._all(name)]) for name in RECEIVED}
         place, flash = self._places.position, found["flash_temperature_rise"]
         force, power = abs(inputs["torque"]) / self.pair.base_radius_1, inputs["torque"] * inputs["speed_1"]
@@ -216,3 +196,7 @@ class GearMesh(Part):
     def _mean(self, values: Array) -> float:
         """Return the sum over all pairs in contact, averaged over a mesh cycle, of values [n] at the stations."""
         return float((self._weights * values).sum())
+
+
+def _at_station(name: str, k: int, nominal: float) -> dict[str, Any]:
+    return of_contact(name, indexed(name, k), f"station {k}", nominal)

@@ -1,9 +1,9 @@
 """Safety against micropitting by ISO/TS 6336-22 (before: ISO/TR 15144-1): film over roughness, along the path.
 
 Formulas from memory, as the standard could not be looked up. What could be checked: the film is that of Dowson &
-Higginson 1966, the flash temperature Blok's (`textbook.blok_line`) within 2 %, H_V Ohlendorf's. The pressure
-coefficient at 38 degC is the oil's own, which comes before the standard's estimate for oils without one. Loads: method
-A, as the machine shares them; all else: method B. Meant for contact ratios below 2.
+Higginson 1966, the flash temperature Blok's of 1937 within 2 %, H_V Ohlendorf's. The pressure coefficient at 38 degC is
+the oil's own, which comes before the standard's estimate for oils without one. Loads: method A, as the machine shares
+them; all else: method B. Meant for contact ratios below 2.
 """
 
 import math

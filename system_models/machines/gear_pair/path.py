@@ -36,12 +36,6 @@ def surface_speeds(pair: SpurGearPair, position: Numbers, speed_1: float, speed_
     return speed_1 * position, speed_2 * (pair.line_length - position)
 
 
-def slide_to_roll(pair: SpurGearPair, position: Numbers) -> Numbers:
-    """Return 2 (u1 - u2) / (u1 + u2) of gears in mesh."""
-    first, second = surface_speeds(pair, position, pair.ratio, 1.0)
-    return 2.0 * (first - second) / (first + second)
-
-
 def track_lengths(pair: SpurGearPair, position: Numbers) -> tuple[Numbers, Numbers]:
     """Return the track lengths [m] of flank points of pinion and wheel: surface speed times the turn of the gear.
 

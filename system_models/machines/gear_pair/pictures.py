@@ -95,7 +95,6 @@ def _pair(charts: dict[str, Chart], name: str) -> list[Chart]:
 
 
 def _alike(charts: Sequence[Chart]) -> list[Chart]:
-    """Return charts of one scale."""
     top = max(scale_of(chart).y1 for chart in charts)
     return [replace(chart, y_range=(0.0, top)) for chart in charts]
 
@@ -168,7 +167,6 @@ def _by_stage(title: str, numbers: Array, *curves: tuple[str, list[float], str])
 
 
 def _against_time(record: Record) -> dict[str, Chart]:
-    """Return the charts against time by name."""
     of, rpm = record.of, 30.0 / np.pi
     nodes = [node.name for node in record.assembly.parts["gearbox"].nodes]  # type: ignore[attr-defined]
     warm = {node: of(f"gearbox.temperature_{node}") - CELSIUS for node in nodes}

@@ -8,7 +8,6 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from contact_core.kernels.arrays import Array, Mask
@@ -16,7 +15,7 @@ from contact_core.laws.viscosity import kinematic_viscosity
 from contact_core.reference import hertz_line
 from contact_core.scene import Scene
 
-from ..assembly import Assembly
+from ..report import Recorded
 from .geometry import FZG_A, FZG_C, SpurGearPair, load_stages
 from .mesh import GearMesh, flank
 from .path import steps
@@ -51,28 +50,18 @@ class Textbook(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Record:
+class Record(Recorded):
     """A run of the machine that `gear_pair.assemble` makes."""
-
-    assembly: Assembly
-    dataset: xr.Dataset
 
     @cached_property
     def mesh(self) -> GearMesh:
-        """The mesh as it was built."""
         mesh = self.assembly.parts["mesh"]
         assert isinstance(mesh, GearMesh)
         return mesh
 
     @property
     def pair(self) -> SpurGearPair:
-        """Both gears."""
         return self.mesh.pair
-
-    @property
-    def time(self) -> Array:
-        """Times of the rows [s]."""
-        return np.asarray(self.dataset["time"].values)
 
     @cached_property
     def positions(self) -> Array:
@@ -86,7 +75,6 @@ class Record:
 
     @property
     def scene(self) -> Scene:
-        """Scene of the flanks."""
         return self.assembly.contacts[flank(1)].scene
 
     @cached_property
@@ -94,10 +82,6 @@ class Record:
         """Stations between the points where pairs of teeth come or go."""
         jumps = [edge for edge in steps(self.pair)[1:-1] if edge != self.pair.pitch_point]
         return np.split(np.arange(self.mesh.stations), np.searchsorted(self.positions, jumps))
-
-    def of(self, name: str) -> Array:
-        """Return a variable "component.output" by row."""
-        return np.asarray(self.dataset.variables[name].values)
 
     def along(self, quantity: str) -> Array:
         """Return a quantity of the contacts by row and station."""
@@ -183,5 +167,4 @@ def _changes(course: Sequence[tuple[float, Any]]) -> list[float]:
 
 
 def _held(course: Sequence[tuple[float, float | int | bool | str]], time: float) -> float:
-    """Return the value that holds at a time."""
     return float([value for start, value in course if start <= time][-1])

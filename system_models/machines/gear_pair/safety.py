@@ -112,7 +112,6 @@ class Safeties:
         return 0.5 * bulk + self.record.along("flash_temperature_rise")[row]
 
     def micropitting(self, row: int) -> Micropitting:
-        """Return S_lambda at a row."""
         standard, own = self.films(row).least, float(self.own_ratio(row).min())
         factor = self.rating.material_factor
         return Micropitting(
@@ -120,7 +119,6 @@ class Safeties:
         )
 
     def scuffing(self, row: int) -> Scuffing:
-        """Return S_B and S_intS at a row."""
         working = self.working(row)
         flash, own = by_flash(working), float(self.own_temperature(row).max())
         return Scuffing(flash, by_integral(working), own, margin(flash.limit, own, working.oil))

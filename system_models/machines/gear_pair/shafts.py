@@ -48,14 +48,12 @@ class GearShafts(Part):
     )
 
     def check(self) -> None:
-        """Raise SceneError if the gears do not go together."""
         wrong = [*self.pair.wrong()]
         if wrong:
             raise SceneError(" ".join(wrong))
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """Torques on both shafts."""
         turns = "torque of friction and rolling on the {}, the way it turns"
         return (
             Input("drive_torque", "T_drive", "N m", "torque that drives the pinion", nominal=100.0),
@@ -67,7 +65,6 @@ class GearShafts(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Speeds, and the torque of the teeth."""
         return (
             Output("speed_1", "omega_1", "rad/s", "angular speed of the pinion", nominal=100.0),
             Output(
@@ -88,7 +85,6 @@ class GearShafts(Part):
 
     @property
     def at_start(self) -> tuple[str, ...]:
-        """Inputs that decide the first state."""
         return ("drive_torque", "speed_drive", "brake_torque")
 
     def initial(self, inputs: Values) -> State:
@@ -110,7 +106,6 @@ class GearShafts(Part):
         return tuple((after / scale).tolist())
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Return the value of each of `responses`."""
         speed_1, speed_2, deflection = state
         closing = self.pair.base_radius_1 * speed_1 - self.pair.base_radius_2 * speed_2
         force = self.stiffness * deflection + self._damping * closing

@@ -91,22 +91,6 @@ def load_intensity(pair: SpurGearPair, torque: float) -> float:
     return torque * teeth / (2.0 * pair.face_width * pair.pitch_radius_1**2)
 
 
-def blok_line(
-    load: float, length: float, friction: float, speed_1: float, speed_2: float, half_width: float, effusivity: float
-) -> float:
-    """Return the largest flash temperature rise [K] of a line contact moving fast over both bodies, of one material.
-
-    1.11 mu w |sqrt(u_1) - sqrt(u_2)| / [B sqrt(2 a)], w being the load per length and B the effusivity.
-
-    load [N] on a length [m], coefficient of friction, surface speeds [m/s], Hertz's half width [m], effusivity
-    sqrt(conductivity * density * heat capacity) [W s^0.5 / (m2 K)]. The factor is that of Hertz's pressure, and heat
-    goes to each body so that both become equally hot.
-    Source: Blok, Proc. General Discussion on Lubrication, IMechE 1937, vol. 2, p. 222.
-    """
-    rubbing = friction * load / length * abs(math.sqrt(abs(speed_1)) - math.sqrt(abs(speed_2)))
-    return 1.11 * rubbing / (effusivity * math.sqrt(2.0 * half_width))
-
-
 def _intensity(pair: SpurGearPair, force: float, speed_1: float) -> float:
     """Return force per width over speed and radius at C, in N/mm, m/s and mm."""
     return 1e-3 * force / pair.face_width / (_sum_speed(pair, speed_1) * 1e3 * _radius_at_pitch(pair))

@@ -9,7 +9,7 @@ import numpy as np
 import scipy  # its parts are loaded at their first use
 from numpy.typing import ArrayLike
 
-from ..kernels.arrays import Array
+from contact_core.kernels.arrays import Array
 
 
 @dataclass(frozen=True)

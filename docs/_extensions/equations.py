@@ -1,6 +1,6 @@
 """The equations of all laws, levels and shapes, and those of closed forms and machines, as a page.
 
-python -m system_models.explain.collection > docs/equations.md
+python -m docs._extensions.equations > docs/equations.md
 """
 
 import inspect
@@ -18,10 +18,9 @@ from contact_core.laws.symbols import explained
 from contact_core.scene import SelfAffine, Surface
 from contact_core.scene.records import Lubricant
 from contact_core.shapes import GEOMETRIES
+from docs._extensions.formulas import sections
+from docs._extensions.latex import latex
 from fmu_src.html.markup import inline
-
-from .formulas import sections
-from .latex import latex
 
 _DOI = re.compile(r"doi:(10\.\d+/[^\s,;]+)")
 # heading and key of the slot in a scene
@@ -51,7 +50,7 @@ Every law that a scene may choose: its equations, symbols, units and source, and
 is off. Behind them stand formulas of [Hertz's contacts](#hertzs-contacts), [films](#films-of-smooth-bodies),
 [bearings](#ball-bearings), [gears](#gears), [cams](#cams) and [other parts](#parts-of-machines), as the functions that
 compute them state them.
-The page is written from the code (`python -m system_models.explain.collection > docs/equations.md`), and tests hold the
+The page is written from the code (`python -m docs._extensions.equations > docs/equations.md`), and tests hold the
 laws against the equations as they stand here. `tribofmu explain SCENE` shows those of one scene, with its numbers. What
 goes beyond laws, methods and outputs, is in [physics](physics.md); symbols that laws share are in the
 [glossary](glossary.md#symbols). All is in SI.

@@ -1,9 +1,7 @@
-"""Completion in a shell, by the shell itself; and pages that errors name."""
+"""Pages of the documentation, by name, and those that errors name."""
 
 import fnmatch
 import re
-import shutil
-import subprocess
 import tomllib
 from pathlib import Path
 
@@ -11,38 +9,10 @@ import pytest
 
 from contact_core.errors import ContactError, ConvergenceError, SceneError
 from system_models.cli import pages
-from system_models.cli.main import COMMANDS, main
+from system_models.cli.main import main
 from system_models.cli.pages import NAMED, page_of
 
 ROOT = Path(__file__).parents[2]
-
-
-def completed(script: str, *words: str) -> set[str]:
-    """Return what bash completes the last word to."""
-    ask = f"COMP_WORDS=({' '.join(repr(word) for word in words)}); COMP_CWORD={len(words) - 1}; _tribofmu; "
-    code = f'{script}\n{ask}printf "%s\\n" "${{COMPREPLY[@]}}"'
-    run = subprocess.run(["bash", "-c", code], check=True, capture_output=True, text=True)
-    return set(run.stdout.split())
-
-
-@pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")
-def test_bash_completes_commands_options_scenes_and_machines(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["completion", "bash"]) == 0
-    script = capsys.readouterr().out
-    assert completed(script, "tribofmu", "") == set(COMMANDS)
-    assert {"mtm_zddp", "mtm_rig"} <= completed(script, "tribofmu", "run", "mtm")
-    assert completed(script, "tribofmu", "stribeck", "mtm") == {"mtm_zddp", "mtm_zddp_thesis"}
-    assert completed(script, "tribofmu", "run", "mtm_zddp", "--res") == {"--resume"}
-    assert completed(script, "tribofmu", "completion", "z") == {"zsh"}
-    assert {"scenes", "scuffing"} == completed(script, "tribofmu", "docs", "sc")
-
-
-def test_the_scripts_of_zsh_and_fish_name_every_command(capsys: pytest.CaptureFixture[str]) -> None:
-    for shell, begin in (("zsh", "autoload -U +X bashcompinit"), ("fish", "complete -c tribofmu")):
-        assert main(["completion", shell]) == 0
-        script = capsys.readouterr().out
-        assert script.startswith(begin)
-        assert all(name in script for name in COMMANDS)
 
 
 def test_pages_that_errors_name_are_there() -> None:
