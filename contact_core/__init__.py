@@ -26,7 +26,6 @@ and a correction may move the estimate. Where to find what:
                      state/trends.py; of the regression level regression/outputs.py
     progress         what a long step is doing, for those who wait
     errors           what can go wrong, each message with a way out
-    arrays           types of arrays
     data/            named oils, solids and tribofilms, and the shipped scenes
 
 Imports run one way: errors, progress, quantities <- kernels <- entry_points, reference <- laws <- shapes <- film <-
