@@ -201,11 +201,16 @@ def nodes_per_instant(case: Case) -> float:
 
     That of the scene, or less where rough bodies would slide too far past each other.
     """
-    asked, spacing = case.scene.control.nodes_per_instant, case.scene.film.spacing
-    rougher, sliding = case.sides[case.scene.rougher].surface, abs(case.op.sliding_speed)
-    if rougher.smooth or sliding == 0.0:
-        return asked
-    return min(asked, _SLIDE * max(rougher.length / spacing, 1.0) * _leading(case) / sliding)
+    asked, sliding = case.scene.control.nodes_per_instant, sliding_node_speed(case)
+    return min(asked, _leading(case) / sliding) if sliding > 0.0 else asked
+
+
+def sliding_node_speed(case: Case) -> float:
+    """Return the speed [m/s] of what moves by a node while rough bodies slide as far as they may in an instant."""
+    rougher, spacing = case.sides[case.scene.rougher].surface, case.scene.film.spacing
+    if rougher.smooth:
+        return 0.0
+    return abs(case.op.sliding_speed) * spacing / (_SLIDE * max(rougher.length, spacing))
 
 
 def _leading(case: Case) -> float:

@@ -188,7 +188,7 @@ def jumps_of(case: Case, index: int, most: float = _SMOOTHER) -> list[float]:
     side, other = case.sides[index], case.sides[1 - index]
     jumping = side.moves and side.surface.rms <= most * other.surface.rms
     film = case.scene.film
-    leap = _sharing_no_factor(_GOLDEN, film.points - 1) * film.spacing
+    leap = math.copysign(_sharing_no_factor(_GOLDEN, film.points - 1) * film.spacing, case.op.entrainment_speed)
     return [leap * (jumping and k == index) for k in (0, 1)]
 
 

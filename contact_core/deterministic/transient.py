@@ -10,7 +10,7 @@ from ..kernels.arrays import Array
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
 from ..surfaces.patches import facing_films, on_patches, patch_nodes
-from .instant import ContactFields, Transient, solve, solve_instant
+from .instant import ContactFields, Transient, sliding_node_speed, solve, solve_instant
 
 Found = tuple[ContactState, ContactFields]
 
@@ -36,8 +36,10 @@ def node_speed(case: Case) -> float:
     """Return the speed [m/s] of what moves on by a node at most in an instant, 0 if nothing has to.
 
     That are rough bodies, and the oil on those that move: further than a node, fitted flow does not carry it over.
+    Where bodies slide past each other it is more.
     """
-    return max(case.rough_speed, abs(case.op.entrainment_speed)) if case.rough_speed > 0.0 else 0.0
+    oil = abs(case.op.entrainment_speed)
+    return max(case.rough_speed, oil, sliding_node_speed(case)) if case.rough_speed > 0.0 else 0.0
 
 
 def longest_instant(case: Case) -> float:

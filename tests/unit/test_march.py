@@ -28,7 +28,7 @@ SMOOTH = {"surface_1__rq": "0 m", "surface_2__rq": "0 m"}
 
 def test_rough_bodies_move_by_at_most_a_node_and_by_their_speeds():
     scene, state, op = cheap()
-    op = replace(op, speed_1=0.5, speed_2=0.2)
+    op = replace(op, speed_1=0.5, speed_2=0.3)
     time = 6.5 * scene.film.spacing / op.speed_1
     moments = list(march(scene, state, lambda time: op, [0.0, time]))
     assert len(moments) == 1 + 7
