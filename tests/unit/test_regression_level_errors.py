@@ -61,7 +61,8 @@ def test_the_deterministic_level_still_says_what_is_stored(rows, name):
     scene, row = scene_of(rows[name]), rows[name]
     _, outputs = advance(scene, OperatingPoint(**row["point"]), initial_state(scene), 0.0)
     for output in ERRORS:
-        assert getattr(outputs, output) == approx(row["truth"][output], rel=0.02), output
+        least = 1e-3 if output == "contact_load_ratio" else 0.0  # a contact of two nodes more or less
+        assert getattr(outputs, output) == approx(row["truth"][output], rel=0.02, abs=least), output
 
 
 def of_group(compared, group):
