@@ -73,7 +73,7 @@ def march(scene: Scene, state: ContactState, duty: Duty, times: Sequence[float],
     ----------
     duty : the operating point at a time [s].
     times : increasing [s]; between two of them, rough bodies make as many instants as keep them from moving on by more
-        than a node.
+        than a node, and from sliding past each other by more than half a correlation length.
     order : of the squeeze term in time; 2 where no roughness moves, since oil between moving asperities would be lost.
 
     Raises
